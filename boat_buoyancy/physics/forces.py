@@ -1,0 +1,267 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The forces on a boat at one place and time, one function per phenomenon.
+
+All wrenches are in body axes about the centre of mass.  Velocity-dependent forces are given as
+a damping matrix and not as numbers, so that every step method can treat them its own way.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from . import laws
+from .backend import Backend
+from .boat import Boat
+from .quaternion import cross, rotation_matrix, to_body
+from .rotation import free_rotation
+
+# Damping ramps in over this part of a probe's height: a jump at entry would leave every step
+# method at first order.
+RAMP = 0.1
+# As an array: NumPy takes half as long over it as over a Python number.
+RAMP_END = np.array([RAMP])
+STILL = (0.0, 0.0, 0.0)
+
+
+class DampingMatrix(NamedTuple):
+    """
+    A symmetric 6 x 6 damping matrix in body axes, as the components that are not zero.
+
+    ``linear`` (3) is the diagonal of the force block, ``coupling`` (3) the vector S of the force
+    w x S and torque S x v, ``angular`` (6) the torque block xx, yy, zz, xy, xz, yz.
+    """
+
+    linear: tuple
+    coupling: tuple
+    angular: tuple
+
+
+class Load(NamedTuple):
+    """
+    Everything a kick needs to know of one place and time.
+
+    ``rotation`` (9) body to world; ``depth`` (n, B) m; ``wetting``; ``force`` N and ``torque``
+    N m: buoyancy, gravity and the pull of moving water; ``damping``; ``submersion`` the weighted
+    mean wetness 0 to 1; ``water_velocity`` (3) m/s, the probes' mean, body axes.
+    """
+
+    rotation: tuple
+    depth: np.ndarray
+    wetting: laws.Wetting
+    force: tuple
+    torque: tuple
+    damping: DampingMatrix
+    submersion: object
+    water_velocity: tuple
+
+
+@dataclass(frozen=True)
+class ProbeArrays:
+    """
+    What the forces multiply: a boat's constants as arrays over its n probes.
+
+    Rows are weights of sums over the probes; those of damping hold 1 / RAMP, so that a fraction
+    cut off at RAMP is all the ramp they need.
+    """
+
+    homogeneous: np.ndarray
+    inverse_height: np.ndarray
+    lift_rows: np.ndarray
+    arm_row: np.ndarray
+    half_height: np.ndarray
+    stiffness_rows: np.ndarray
+    damping_rows: np.ndarray
+    drag_rows: np.ndarray
+    share: np.ndarray
+
+    @classmethod
+    def of(cls, boat):
+        """Return the arrays of a `Boat`."""
+        hull, share = boat.hull, boat.hull.share
+        x, y, z = boat.probe_offsets.T
+        one = np.ones(len(share))
+        drag = boat.damping.probe * share
+        return cls(
+            homogeneous=np.stack([x, y, z, one], axis=1),
+            inverse_height=1.0 / hull.height[:, None],
+            lift_rows=hull.max_force * np.stack([x, y, z, one, hull.height]),
+            arm_row=hull.max_force * hull.height[None, :] / 2.0,
+            half_height=hull.height[:, None] / 2.0,
+            stiffness_rows=hull.max_force * np.stack([one, x, y, x * x, y * y, x * y]),
+            damping_rows=np.stack([share, *(drag * np.stack([
+                one, x, y, z, y * y + z * z, x * x + z * z, x * x + y * y,
+                -x * y, -x * z, -y * z]))]) / RAMP,
+            drag_rows=drag * np.stack([one, x, y, z]) / RAMP,
+            share=share[None, :])
+
+
+def probe_points(system, position, rotation):
+    """Return the probes in world axes, (3, n, B) m; one matrix product for the whole fleet."""
+    a, b, c, d, e, f, g, h, i = rotation
+    x, y, z = position
+    return system.backend.place(system.arrays.homogeneous, (a, b, c, x, d, e, f, y, g, h, i, z))
+
+
+def buoyancy(system, wetting, upright):
+    """
+    Return the lift in N, straight up in the world, and its first moment (3) N m in body axes.
+
+    The torque is moment x up: sum r_i x F_i of parallel forces.  The force of a column acts at
+    the middle of its wet part, which upside down hangs from the top end.
+    """
+    backend, arrays = system.backend, system.arrays
+    share = wetting.share
+    x, y, z, lift, from_top = backend.components(arrays.lift_rows.dot(share))
+    if system.law.has_arm:
+        raised, = backend.components(arrays.arm_row.dot(share * share))
+        z = z + backend.where(upright > 0.0, raised, from_top - raised)
+    return lift, (x, y, z)
+
+
+def probe_damping(backend, arrays, ramp):
+    """
+    Return the weighted mean wetness, and the probes' part of the `DampingMatrix`.
+
+    ``ramp`` (n, B) is each probe's wetness, 0 to RAMP.  Probe i gives -c_i s_i (v + w x r_i).  The
+    force block is c times the unit matrix: returns wetness, c, coupling (3), torque block (6).
+    """
+    submersion, c, sx, sy, sz, *angular = backend.components(arrays.damping_rows.dot(ramp))
+    return submersion, c, (sx, sy, sz), angular
+
+
+def mixed(pairs, submersion):
+    """
+    Return nine components of damping, force block and torque block, at a wetness 0 to 1.
+
+    ``pairs`` as `System.body_damping`: retention and linear drag mix between air and water.
+    """
+    (a, aw), (b, bw), (c, cw), (d, dw), (e, ew), (f, fw), (g, gw), (h, hw), (i, iw) = pairs
+    return (a + submersion * aw, b + submersion * bw, c + submersion * cw,
+            d + submersion * dw, e + submersion * ew, f + submersion * fw,
+            g + submersion * gw, h + submersion * hw, i + submersion * iw)
+
+
+def orbital_drag(backend, arrays, ramp, orbital, rotation):
+    """
+    Return force, torque and mean velocity that the orbital motion of waves gives the probes.
+
+    ``ramp`` as in `probe_damping`; ``orbital`` (3, n, B) m/s in world axes.  Sums c_i s_i w_i and
+    c_i s_i r_i x w_i.
+    """
+    x, y, z = backend.over_probes(arrays.share, orbital)
+    (fx, mxx, myx, mzx,
+     fy, mxy, myy, mzy,
+     fz, mxz, myz, mzz) = backend.over_probes(arrays.drag_rows, ramp * orbital)
+    # First moments of the pull, place in body axes by pull in world axes; the torque needs the
+    # pull's components across each lever only.
+    a, b, c, d, e, f, g, h, i = rotation
+    torque = (c * myx + f * myy + i * myz - b * mzx - e * mzy - h * mzz,
+              a * mzx + d * mzy + g * mzz - c * mxx - f * mxy - i * mxz,
+              b * mxx + e * mxy + h * mxz - a * myx - d * myy - g * myz)
+    return to_body(rotation, (fx, fy, fz)), torque, to_body(rotation, (x, y, z))
+
+
+@dataclass(frozen=True)
+class System:
+    """
+    A boat made ready for stepping: its constants in the form the hot path uses.
+
+    ``rotate`` is the function of `free_rotation`;
+    ``body_damping`` (9), force block and torque block, are pairs of damping in air and what water
+    adds, ``retention`` its part without linear drag; ``quadratic`` (6) or None.
+    """
+
+    backend: Backend
+    arrays: ProbeArrays
+    law: laws.Law
+    rotate: Callable
+    mass: float
+    weight: float
+    inertia: tuple
+    body_damping: tuple
+    retention: tuple
+    quadratic: tuple | None
+    boat: Boat
+
+    @classmethod
+    def of(cls, boat, backend):
+        """Return the system of a `Boat` for one boat or a fleet."""
+        water, air = boat.retention_damping
+        with_linear = water + np.diag(boat.damping.linear)
+
+        force_block = ((0, 0), (1, 1), (2, 2))
+        torque_block = ((3, 3), (4, 4), (5, 5), (3, 4), (3, 5), (4, 5))
+
+        def pairs(matrix):
+            return tuple((float(air[i]), float(matrix[i] - air[i]))
+                         for i in force_block + torque_block)
+
+        quadratic = tuple(boat.damping.quadratic.tolist())
+        return cls(
+            backend=backend, arrays=ProbeArrays.of(boat), law=laws.LAWS[boat.hull.law],
+            rotate=free_rotation(boat), mass=boat.mass, weight=boat.weight,
+            inertia=tuple(float(boat.mass_matrix[i]) for i in torque_block),
+            body_damping=pairs(with_linear), retention=pairs(water),
+            quadratic=quadratic if any(quadratic) else None, boat=boat)
+
+
+def evaluate(system, sea, position, orientation, time):
+    """
+    Return the `Load` on a boat.
+
+    Main arguments: ``system`` a `System`; ``sea`` the water; ``position`` (3) m of the centre of
+    mass and ``orientation`` (4), components; ``time`` s.
+    """
+    backend, arrays = system.backend, system.arrays
+    rotation = rotation_matrix(orientation)
+    up = rotation[6:]
+    points = probe_points(system, position, rotation)
+    sea = sea.at(time)
+    if sea.is_flat:
+        depth = -points[2]
+    else:
+        surface = sea.surface(points, time)
+        depth = surface[0] - points[2]
+    wetting = system.law.wetting(backend, arrays.inverse_height, depth, up[2])
+    ramp = np.minimum(wetting.fraction, RAMP_END)
+
+    lift, moment = buoyancy(system, wetting, up[2])
+    net = lift - system.weight
+    fx, fy, fz = net * up[0], net * up[1], net * up[2]
+    tx, ty, tz = cross(moment, up)
+
+    submersion, c, coupling, angular = probe_damping(backend, arrays, ramp)
+    ax, ay, az, xx, yy, zz, xy, xz, yz = mixed(system.body_damping, submersion)
+    qxx, qyy, qzz, qxy, qxz, qyz = angular
+    damping = DampingMatrix((ax + c, ay + c, az + c), coupling,
+                            (xx + qxx, yy + qyy, zz + qzz, xy + qxy, xz + qxz, yz + qyz))
+
+    water = STILL
+    if not sea.is_flat:
+        pull, twist, water = orbital_drag(backend, arrays, ramp, surface[1:], rotation)
+        fx, fy, fz = (fx + pull[0] + ax * water[0], fy + pull[1] + ay * water[1],
+                      fz + pull[2] + az * water[2])
+        tx, ty, tz = tx + twist[0], ty + twist[1], tz + twist[2]
+    if sea.drift is not None:
+        x, y, z = to_body(rotation, sea.drift)
+        lever = cross(coupling, (x, y, z))
+        fx, fy, fz = fx + (ax + c) * x, fy + (ay + c) * y, fz + (az + c) * z
+        tx, ty, tz = tx + lever[0], ty + lever[1], tz + lever[2]
+        water = (water[0] + x, water[1] + y, water[2] + z)
+    return Load(rotation, depth, wetting, (fx, fy, fz), (tx, ty, tz), damping, submersion, water)

@@ -1,0 +1,112 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The hull: probes that sample the water, and how a shape is turned into probes."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import checks
+
+LAWS = ('spring', 'soft', 'column')
+
+
+@dataclass(frozen=True)
+class Hull:
+    """
+    The probes of a hull, in body axes.
+
+    Main arguments: ``positions`` (n, 3) m; ``max_force`` (n,) N, what each probe gives at most;
+    ``height`` (n,) m, the depth at which it does.
+    Other arguments: ``law`` is ``spring`` or ``soft`` (a point) or ``column`` (the probe is the
+    bottom of a column of hull of that height).
+    """
+
+    positions: np.ndarray
+    max_force: np.ndarray
+    height: np.ndarray
+    law: str = 'spring'
+
+    def __post_init__(self):
+        """Store checked, read-only arrays."""
+        positions = np.array(self.positions, float).reshape(-1, 3)
+        count = len(positions)
+        if count == 0:
+            raise ValueError('probes.positions: expected at least one probe, got none')
+        if not np.isfinite(positions).all():
+            raise ValueError('probes.positions: expected finite numbers, '
+                             f'got {positions.tolist()}')
+        positions.setflags(write=False)
+        object.__setattr__(self, 'positions', positions)
+        for name in ('max_force', 'height'):
+            values = np.broadcast_to(np.asarray(getattr(self, name), float), (count,))
+            object.__setattr__(self, name, checks.vector(name, values, count, at_least=0.0))
+        if not self.max_force.sum() > 0:
+            raise ValueError('probes.weights: expected a sum above 0, got 0')
+        if not (self.height > 0).all():
+            raise ValueError('probes.stiffness: expected a finite height above 0 for every '
+                             f'probe, got heights {self.height.tolist()}')
+        if self.law not in LAWS:
+            raise ValueError(f'probes.law: expected one of {", ".join(LAWS)}, got {self.law!r}')
+
+    @cached_property
+    def share(self):
+        """Return (n,), each probe's part of the budget: weight over sum of weights."""
+        return self.max_force / self.max_force.sum()
+
+    @cached_property
+    def stiffness(self):
+        """Return (n,) N/m, the slope of each probe's force at the surface."""
+        return self.max_force / self.height
+
+
+def probe_hull(positions, weights, *, weight, floatiness, stiffness, law):
+    """
+    Return the idea's hull: a buoyancy budget shared out by weight.
+
+    Main arguments: ``positions`` (n, 3) m; ``weights`` (n,) relative importance; ``weight`` m g
+    of the boat in N; ``floatiness`` F_max/(m g); ``stiffness`` 1/m, share of a probe's force
+    per metre of depth; ``law`` as in `Hull`.
+    """
+    positions = np.array(positions, float).reshape(-1, 3)
+    weights = checks.vector('probes.weights', weights, len(positions), at_least=0.0)
+    if not weights.sum() > 0:
+        raise ValueError(f'probes.weights: expected a sum above 0, got {weights.tolist()}')
+    budget = weight * floatiness
+    return Hull(positions, budget * weights / weights.sum(),
+                np.full(len(positions), 1.0 / stiffness), law)
+
+
+def box_hull(size, bottom, probes, *, specific_weight, law='column'):
+    """
+    Return a box hull of columns at Gauss points, exact until an edge leaves the water.
+
+    Main arguments: ``size`` (3,) length, beam, depth m; ``bottom`` z of the bottom in the body
+    frame m; ``probes`` (along, across), how many columns.
+    Other arguments: ``specific_weight`` rho g in N/m^3; ``law`` as in `Hull`.
+
+    Gauss-Legendre points integrate the box's volume and first moments of the wet volume, linear
+    and quadratic in place, without error from 2 x 2 columns on.
+    """
+    length, beam, depth = size
+    (along, along_weight), (across, across_weight) = (
+        np.polynomial.legendre.leggauss(count) for count in probes)
+    x, y = np.meshgrid(along * length / 2, across * beam / 2, indexing='ij')
+    weights = np.outer(along_weight, across_weight).ravel() / 4.0
+    positions = np.stack([x.ravel(), y.ravel(), np.full(x.size, float(bottom))], axis=1)
+    volume = length * beam * depth
+    return Hull(positions, specific_weight * volume * weights,
+                np.full(x.size, float(depth)), law)

@@ -1,0 +1,144 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The boats that the tests compare with answers from elsewhere.
+
+The reference boat has 1000 kg on four probes of 4905 N/m, so it floats 0.5 m deep and heaves at
+sqrt(19620 / 1000) = 4.42944692 rad/s.
+"""
+
+from boat_buoyancy.physics.boat import Boat, Damping, State
+from boat_buoyancy.physics.hull import box_hull, Hull
+from boat_buoyancy.physics.quaternion import from_roll_pitch_yaw
+from boat_buoyancy.physics.simulation import Simulation
+from boat_buoyancy.physics.waves import Sea
+import numpy as np
+
+GRAVITY = 9.81
+MASS = 1000.0
+STIFFNESS = 19620.0
+DRAFT = MASS * GRAVITY / STIFFNESS
+HEAVE = np.sqrt(STIFFNESS / MASS)
+METHODS = ('leapfrog', 'implicit', 'rk4', 'symplectic_euler', 'euler')
+LAWS = ('spring', 'soft', 'column')
+SQUARE = np.array([[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]])
+
+
+def undamped(**changes):
+    """Return a `Damping` that takes nothing away but what is given."""
+    keep = {name: [1.0] for name in ('linear_retention', 'angular_retention',
+                                     'air_linear_retention', 'air_angular_retention')}
+    return Damping(**{**keep, **changes})
+
+
+def reference_boat(*, floatiness=4.0, positions=SQUARE, weights=(1.0,), law='spring',
+                   inertia=(500.0, 700.0, 900.0), damping=None, center_of_mass=(0.0,) * 3):
+    """Return the reference boat; its probes are full ``floatiness`` / 2 m under water."""
+    positions = np.asarray(positions, float)
+    weights = np.broadcast_to(np.asarray(weights, float), (len(positions),))
+    budget = MASS * GRAVITY * floatiness
+    hull = Hull(positions, budget * weights / weights.sum(),
+                np.full(len(positions), budget / STIFFNESS), law)
+    return Boat(MASS, hull, inertia, damping or undamped(), center_of_mass)
+
+
+def asymmetric_boat(law='spring', *, floatiness=3.0, damping=None):
+    """Return a boat without any symmetry: full inertia tensor, odd weights and probes."""
+    positions = np.array([[1.3, 0.9, -0.2], [1.1, -0.8, -0.3], [-1.2, 0.7, -0.25],
+                          [-0.9, -1.0, -0.35], [0.1, 0.2, -0.4]])
+    return reference_boat(
+        floatiness=floatiness, positions=positions, weights=[1.0, 1.2, 0.9, 1.1, 0.8], law=law,
+        inertia=[600.0, 800.0, 1000.0, 60.0, -40.0, 30.0], damping=damping or all_damping(),
+        center_of_mass=(0.05, -0.03, 0.1))
+
+
+def all_damping():
+    """Return a `Damping` with every kind of drag, different on every axis."""
+    return Damping(
+        linear_retention=[0.9, 0.8, 0.7], angular_retention=[0.85, 0.8, 0.75],
+        air_linear_retention=[0.99, 0.98, 0.97], air_angular_retention=[0.995, 0.985, 0.975],
+        probe=800.0, linear=[50.0, 60.0, 70.0, 80.0, 90.0, 100.0],
+        quadratic=[40.0, 50.0, 60.0, 70.0, 80.0, 90.0])
+
+
+def box_boat(damping=None):
+    """Return the 4 x 2 x 1 m box of 2000 kg in sea water, four columns at the Gauss points."""
+    hull = box_hull((4.0, 2.0, 1.0), -0.5, (2, 2), specific_weight=1025.0 * GRAVITY)
+    inertia = 2000.0 / 12.0 * np.array([2.0**2 + 1.0**2, 4.0**2 + 1.0**2, 4.0**2 + 2.0**2])
+    return Boat(2000.0, hull, inertia, damping or Damping())
+
+
+def wind_sea():
+    """Return a sea of four waves from several sides over a current."""
+    return Sea([[0.15, 5.0, 0.3, 0.2], [0.10, 3.7, -1.0, 1.0], [0.08, 2.9, 2.5, 2.0],
+                [0.05, 2.1, 0.9, 3.0]], current=[0.3, -0.2])
+
+
+def random_states(shape, seed, *, height=0.5, tilt=0.5, speed=0.5):
+    """Return a `State` of many boats thrown about, seeded."""
+    random = np.random.default_rng(seed)
+    angles = random.uniform(-tilt, tilt, (*shape, 3))
+    orientation = np.stack(from_roll_pitch_yaw(*np.moveaxis(angles, -1, 0)), axis=-1)
+    position = random.uniform(-1.0, 1.0, (*shape, 3)) * [2.0, 2.0, height]
+    return State(position, orientation, random.normal(size=(*shape, 3)) * speed,
+                 random.normal(size=(*shape, 3)) * speed)
+
+
+def turned(roll=0.0, pitch=0.0, yaw=0.0):
+    """Return the quaternion of roll, pitch, yaw in rad as a tuple."""
+    return from_roll_pitch_yaw(roll, pitch, yaw)
+
+
+def run(simulation, seconds, thrust=None):
+    """Step for a while and return time (n + 1,) and the states as one `State` of n + 1 rows."""
+    states = [simulation.state]
+    for _ in range(round(seconds * simulation.rate)):
+        simulation.step(thrust)
+        states.append(simulation.state)
+    return (np.arange(len(states)) / simulation.rate, State(
+        *(np.stack([getattr(state, name) for state in states]) for name in (
+            'position', 'orientation', 'velocity', 'angular_velocity'))))
+
+
+def simulate(boat, state, seconds, *, sea=None, thrust=None, **options):
+    """Return time and the states of a run from ``state``; ``options`` as of `Simulation`."""
+    return run(Simulation(boat, sea or Sea(), state, **options), seconds, thrust)
+
+
+def last_state(boat, state, seconds, *, sea=None, thrust=None, **options):
+    """Return the state at the end of a run."""
+    simulation = Simulation(boat, sea or Sea(), state, **options)
+    for _ in range(round(seconds * simulation.rate)):
+        simulation.step(thrust)
+    return simulation.state
+
+
+def crossings(time, value, rate, *, rising):
+    """
+    Return the times at which a sampled function passes zero in one direction.
+
+    ``rate`` is its derivative at the samples: between samples a cubic through both is followed
+    to its root, so that the answer is exact to the fourth order of the sampling step.
+    """
+    sign = 1.0 if rising else -1.0
+    found = []
+    for i in np.flatnonzero((sign * value[:-1] < 0) & (sign * value[1:] >= 0)):
+        h = time[i + 1] - time[i]
+        a, b, c, d = value[i], h * rate[i], value[i + 1], h * rate[i + 1]
+        roots = np.roots([2 * a + b - 2 * c + d, -3 * a - 2 * b + 3 * c - d, b, a])
+        inside = [root.real for root in roots
+                  if abs(root.imag) < 1e-9 and -1e-9 < root.real < 1.0 + 1e-9]
+        found.append(time[i] + h * inside[0])
+    return np.array(found)

@@ -1,0 +1,189 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The columns of a box against exact clipping, and clipping against closed forms."""
+
+from boat_buoyancy.physics.backend import FLEET
+from boat_buoyancy.physics.boat import Boat, State
+from boat_buoyancy.physics.forces import buoyancy, System
+from boat_buoyancy.physics.hull import box_hull
+from boat_buoyancy.physics.hydrostatics import load_at, rest_state
+from boat_buoyancy.physics.righting import righting_arms
+from boat_buoyancy.tools.clipping import box_surface, submerged
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from scipy.spatial import ConvexHull
+from scipy.spatial.transform import Rotation
+
+SPECIFIC_WEIGHT = 1025.0 * 9.81
+BARGE, KEEL_TO_MASS = (20.0, 6.0, 3.0), 1.8
+
+
+def boat_of(size, keel_to_mass, mass, probes=(2, 2)):
+    """Return a box boat whose body origin is its centre of mass."""
+    hull = box_hull(size, -keel_to_mass, probes, specific_weight=SPECIFIC_WEIGHT)
+    return Boat(mass, hull, [1.0, 1.0, 1.0])
+
+
+def surface_of(size, keel_to_mass):
+    """Return the triangles of the box about the same origin."""
+    length, beam, depth = size
+    return box_surface((-length / 2, -beam / 2, -keel_to_mass),
+                       (length / 2, beam / 2, depth - keel_to_mass))
+
+
+def placed(triangles, turn, height):
+    """Return triangles in world axes."""
+    return turn.apply(triangles.reshape(-1, 3)).reshape(-1, 3, 3) + [0.0, 0.0, height]
+
+
+def modelled(boat, turn, height):
+    """Return volume m^3 and centre of buoyancy (3,) m from the centre of mass, world axes."""
+    load = load_at(boat, State([0.0, 0.0, height], turn.as_quat()))
+    lift, moment = buoyancy(System.of(boat, FLEET), load.wetting, load.rotation[8])
+    return lift[0] / SPECIFIC_WEIGHT, turn.apply(np.ravel(moment) / lift[0])
+
+
+def walls_only(random):
+    """Return a random box, place and attitude with its whole bottom wet and its deck dry."""
+    while True:
+        size = np.exp(random.uniform(np.log(0.3), np.log(30.0), 3))
+        keel_to_mass = random.uniform(-0.5, 1.5) * size[2]
+        roll, pitch = random.uniform(-1.2, 1.2, 2)
+        turn = Rotation.from_euler('xyz', [roll, pitch, random.uniform(-3.0, 3.0)])
+        corners = turn.apply(surface_of(size, keel_to_mass).reshape(-1, 3))[:, 2]
+        inside = surface_of(size, keel_to_mass).reshape(-1, 3)[:, 2] < 0.0 - keel_to_mass + 1e-9
+        bottom, deck = corners[inside].max(), corners[~inside].min()
+        if bottom < deck:
+            # The whole range of heights from the bottom just wet to the deck just dry.
+            return size, keel_to_mass, turn, -random.uniform(bottom, deck)
+
+
+def test_columns_have_the_volume_and_centre_of_a_box_at_any_heel_trim_and_heave_to_1e_12():
+    random = np.random.default_rng(11)
+    for _ in range(500):
+        size, keel_to_mass, turn, height = walls_only(random)
+        probes = tuple(random.integers(2, 6, 2).tolist())
+        volume, centre = modelled(boat_of(size, keel_to_mass, 1.0, probes), turn, height)
+        wet, moment = submerged(placed(surface_of(size, keel_to_mass), turn, height))
+        moment = moment - wet * np.array([0.0, 0.0, height])
+        assert abs(volume / wet - 1.0) < 1e-12
+        assert np.abs(centre - moment / wet).max() < 1e-12 * size.max()
+
+
+def test_past_a_deck_edge_columns_are_no_longer_the_box():
+    size, turn = (4.0, 2.0, 1.0), Rotation.from_euler('x', 0.6)
+    volume, _ = modelled(boat_of(size, 0.5, 1.0), turn, -0.3)
+    wet, _ = submerged(placed(surface_of(size, 0.5), turn, -0.3))
+    assert abs(volume / wet - 1.0) > 1e-3
+
+
+def test_a_box_floats_where_its_clipped_volume_carries_it():
+    random = np.random.default_rng(3)
+    for _ in range(50):
+        size, keel_to_mass, turn, height = walls_only(random)
+        surface = surface_of(size, keel_to_mass)
+        mass = 1025.0 * submerged(placed(surface, turn, height))[0]
+        roll, pitch, yaw = turn.as_euler('xyz')
+        state = rest_state(boat_of(size, keel_to_mass, mass), roll, pitch, yaw)
+        assert abs(state.position[2] - height) < 1e-12 * np.max(size)
+
+
+def clipped_arm(surface, volume, heel):
+    """Return GZ in m of the clipped body at one heel in rad, free to rise and sink."""
+    turn = Rotation.from_euler('x', heel)
+    height = brentq(lambda z: submerged(placed(surface, turn, z))[0] - volume, -20.0, 20.0,
+                    xtol=1e-14)
+    wet, moment = submerged(placed(surface, turn, height))
+    return -moment[1] / wet
+
+
+def test_the_clipped_barge_has_the_righting_arms_known_for_it():
+    surface = surface_of(BARGE, KEEL_TO_MASS)
+    arms = [clipped_arm(surface, 180.0, heel) for heel in np.radians([10, 20, 30, 40, 50])]
+    np.testing.assert_allclose(arms, [0.1704, 0.3702, 0.6078, 0.6287, 0.5171], atol=5e-5)
+
+
+@pytest.mark.parametrize('probes, every_ten, every_one', [
+    ((4, 4), 0.0545, 0.0548), ((8, 8), 0.0124, 0.0308), ((24, 24), 0.0020, 0.0049)])
+def test_more_columns_come_closer_to_the_box_past_its_deck_edge(probes, every_ten, every_one):
+    # Errors peak between the tens of degrees, where a row of columns fills: both are told.
+    boat = boat_of(BARGE, KEEL_TO_MASS, 1025.0 * 180.0, probes)
+    surface, heel = surface_of(BARGE, KEEL_TO_MASS), np.radians(np.arange(0.0, 51.0))
+    exact = [clipped_arm(surface, 180.0, angle) for angle in heel]
+    error = np.abs(righting_arms(boat, heel) - exact)
+    assert error[:27].max() < 1e-12
+    assert error[::10].max() < every_ten and error.max() < every_one
+
+
+# Clipping on its own.
+
+def test_a_body_under_water_has_its_whole_volume_and_centre_and_one_above_none():
+    surface = box_surface((1.0, 2.0, -7.0), (3.0, 5.0, -3.0))
+    volume, moment = submerged(surface)
+    assert volume == pytest.approx(24.0, rel=1e-14)
+    np.testing.assert_allclose(moment / volume, [2.0, 3.5, -5.0], rtol=1e-14)
+    volume, moment = submerged(surface + [0.0, 0.0, 10.0])
+    assert volume == 0.0 and not moment.any()
+
+
+def test_a_cube_on_its_edge_sinks_a_triangular_prism():
+    for part in (0.1, 0.5, 0.9):
+        surface = placed(surface_of((3.0, 1.0, 1.0), 0.5), Rotation.from_euler('x', np.pi / 4),
+                         np.sqrt(0.5) * (1.0 - part))
+        volume, moment = submerged(surface)
+        depth = np.sqrt(0.5) * part
+        assert volume == pytest.approx(3.0 * depth**2, rel=1e-13)
+        np.testing.assert_allclose(moment / volume, [0.0, 0.0, -depth / 3.0], atol=1e-14)
+
+
+def test_a_finely_meshed_ball_has_the_cap_of_a_ball():
+    points = 2.0 * fibonacci(20000)
+    surface = outward(points[ConvexHull(points).simplices])
+    depth = 0.7
+    volume, moment = submerged(surface + [0.5, -0.3, 2.0 - depth])
+    assert volume == pytest.approx(np.pi * depth**2 * (6.0 - depth) / 3.0, rel=2e-3)
+    centre = 2.0 - depth - 3.0 * (4.0 - depth)**2 / (4.0 * (6.0 - depth))
+    np.testing.assert_allclose(moment / volume, [0.5, -0.3, centre], atol=2e-3)
+
+
+def test_the_parts_below_and_above_the_water_make_up_the_whole():
+    points = np.random.default_rng(2).normal(size=(40, 3)) + [0.3, -0.2, 0.1]
+    surface = outward(points[ConvexHull(points).simplices])
+    above = surface[:, ::-1] * [1.0, 1.0, -1.0]
+    whole = ConvexHull(points).volume
+    (below, low), (rest, high) = submerged(surface), submerged(above)
+    assert 0.1 * whole < below < 0.9 * whole
+    assert below + rest == pytest.approx(whole, rel=1e-13)
+    deep, moment = submerged(surface - [0.0, 0.0, 50.0])
+    assert deep == pytest.approx(whole, rel=1e-13)
+    np.testing.assert_allclose(low + high * [1.0, 1.0, -1.0],
+                               moment + [0.0, 0.0, 50.0 * whole], atol=1e-11 * whole)
+
+
+def fibonacci(count):
+    """Return points (count, 3) spread evenly over the unit ball's surface."""
+    index = np.arange(count) + 0.5
+    z, angle = 1.0 - 2.0 * index / count, np.pi * (1.0 + np.sqrt(5.0)) * index
+    radius = np.sqrt(1.0 - z * z)
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=1)
+
+
+def outward(triangles):
+    """Return the triangles of a convex body in counter-clockwise order seen from outside."""
+    middle = triangles.mean(axis=(0, 1))
+    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    inward = np.sum(normal * (triangles.mean(axis=1) - middle), axis=1) < 0.0
+    return np.where(inward[:, None, None], triangles[:, ::-1], triangles)

@@ -1,0 +1,192 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+from boat_buoyancy.physics.boat import Damping, State
+from boat_buoyancy.physics.simulation import Simulation
+from boat_buoyancy.physics.waves import Sea, wavenumber
+from boats import (
+    asymmetric_boat, DRAFT, HEAVE, last_state, MASS, random_states, reference_boat, run,
+    STIFFNESS, undamped, wind_sea)
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from textbook import dispersion, water
+
+GRAVITY = 9.81
+
+
+@pytest.mark.parametrize(('period', 'depth', 'length', 'digit'), [
+    (8.0, 0.0, 99.9238, 5e-5), (4.0, 0.0, 24.981, 5e-4), (8.0, 10.0, 70.8984, 5e-5),
+    (10.0, 20.0, 121.2369, 5e-5)])
+def test_wave_length_by_dispersion(period, depth, length, digit):
+    k = wavenumber(2 * np.pi / period, depth)
+    assert 2 * np.pi / k == pytest.approx(length, abs=digit)
+    assert k == pytest.approx(dispersion(2 * np.pi / period, depth, GRAVITY), rel=1e-13)
+
+
+def test_deep_waves_are_as_long_as_the_square_of_their_period():
+    for period in (0.5, 4.0, 8.0, 30.0):
+        assert 2 * np.pi / wavenumber(2 * np.pi / period) == pytest.approx(
+            GRAVITY * period**2 / (2 * np.pi), rel=1e-14)
+
+
+@pytest.mark.parametrize('depth', [0.01, 0.3, 3.0, 50.0, 1e4])
+def test_dispersion_holds_from_ripples_to_tides(depth):
+    frequency = 2 * np.pi / np.geomspace(0.1, 1e5, 61)
+    k = wavenumber(frequency, depth)
+    assert GRAVITY * k * np.tanh(k * depth) == pytest.approx(frequency**2, rel=1e-12)
+    # Both limits of linear theory: deep water, and g h as the fastest speed of all.
+    assert (k >= frequency**2 / GRAVITY * (1 - 1e-12)).all()
+    assert (frequency / k <= np.sqrt(GRAVITY * depth) * (1 + 1e-12)).all()
+
+
+def test_elevation_of_a_linear_wave():
+    sea = Sea([[2.0, 10.0, 0.0, 0.0]])
+    assert sea.elevation(0.0, 0.0, 5.0) == pytest.approx(-2.0, abs=1e-12)
+    for x in (2.5, -2.5):
+        assert sea.elevation(x, 7.0, 5.0) == pytest.approx(-1.989886648, abs=5e-10)
+
+
+def test_crests_go_where_the_direction_says():
+    direction, period = 2.0, 6.0
+    sea = Sea([[1.0, period, direction, 0.0]])
+    speed = GRAVITY * period / (2 * np.pi)
+    for time in (0.0, 1.3, 4.4):
+        x, y = speed * time * np.cos(direction), speed * time * np.sin(direction)
+        assert sea.elevation(x, y, time) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_phase_moves_the_crest_back():
+    sea = Sea([[1.0, 6.0, 0.0, 0.5]])
+    assert sea.elevation(-0.5 / wavenumber(2 * np.pi / 6.0), 0.0, 0.0) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize('depth', [0.0, 1.5])
+def test_water_at_the_surface_rises_with_it(depth):
+    waves, step = wind_sea().waves, 1e-5
+    sea = Sea(waves, depth=depth)
+    x, y = np.random.default_rng(1).uniform(-20, 20, (2, 50))
+    rise = (sea.elevation(x, y, 3.0 + step) - sea.elevation(x, y, 3.0 - step)) / (2 * step)
+    assert sea.velocity(x, y, 3.0)[:, 2] == pytest.approx(rise, abs=1e-9)
+
+
+@pytest.mark.parametrize('depth', [0.0, 1.5])
+def test_horizontal_acceleration_of_the_surface_is_gravity_times_its_slope(depth):
+    # Linear theory at constant pressure: du/dt = -g grad(eta).
+    sea, step = Sea(wind_sea().waves, depth=depth), 1e-5
+    x, y = np.random.default_rng(2).uniform(-20, 20, (2, 50))
+    rate = (sea.velocity(x, y, 3.0 + step) - sea.velocity(x, y, 3.0 - step)) / (2 * step)
+    assert rate[:, :2] == pytest.approx(-GRAVITY * sea.slope(x, y, 3.0), abs=1e-8)
+    along = (sea.elevation(x + step, y, 3.0) - sea.elevation(x - step, y, 3.0)) / (2 * step)
+    across = (sea.elevation(x, y + step, 3.0) - sea.elevation(x, y - step, 3.0)) / (2 * step)
+    assert sea.slope(x, y, 3.0) == pytest.approx(np.stack([along, across], axis=-1), abs=1e-9)
+
+
+@pytest.mark.parametrize('depth', [0.0, 2.0])
+def test_water_is_that_of_the_textbook(depth):
+    sea = Sea(wind_sea().waves, wind_sea().current, depth)
+    for x, y, time in np.random.default_rng(3).uniform(-50, 50, (30, 3)):
+        height, velocity = water(sea, x, y, time)
+        assert sea.elevation(x, y, time) == pytest.approx(height, abs=1e-12)
+        assert sea.velocity(x, y, time) == pytest.approx(velocity, abs=1e-12)
+
+
+def test_probes_are_as_deep_as_the_surface_is_above_them():
+    sea, boat = wind_sea(), asymmetric_boat()
+    simulation = Simulation(boat, sea, random_states((3, 4), 6), rate=50)
+    for _ in range(7):
+        simulation.step()
+    state, depths = simulation.state, simulation.probe_depths
+    assert depths.shape == (3, 4, 5)
+    for place in np.ndindex(3, 4):
+        turn = Rotation.from_quat(state.orientation[place])
+        probes = state.position[place] + turn.apply(boat.probe_offsets)
+        surface = [water(sea, x, y, 7 / 50)[0] for x, y, _ in probes]
+        assert depths[place] == pytest.approx(surface - probes[:, 2], abs=1e-12)
+
+
+def test_a_sea_set_to_another_hour_is_the_same_sea():
+    sea, noon = wind_sea(), 43200.0
+    later = sea.starting_at(noon)
+    x, y = np.random.default_rng(4).uniform(-20, 20, (2, 30))
+    assert later.elevation(x, y, 1.5) == pytest.approx(sea.elevation(x, y, noon + 1.5), abs=1e-9)
+
+
+def test_fastest_water_bounds_the_water():
+    sea = Sea(wind_sea().waves, wind_sea().current, 0.8)
+    x, y = np.random.default_rng(5).uniform(-100, 100, (2, 2000))
+    speeds = np.linalg.norm(sea.velocity(x, y, np.linspace(0, 100, 2000)), axis=1)
+    assert 0.5 * sea.fastest_water < speeds.max() <= sea.fastest_water
+
+
+def response(period, rate):
+    """Return the amplitude of heave over that of the wave, by a fit of a sinusoid."""
+    half = 4.0 / (2 * np.sqrt(3.0))
+    places = [[half, 1.0, 0.0], [half, -1.0, 0.0], [-half, 1.0, 0.0], [-half, -1.0, 0.0]]
+    boat = reference_boat(positions=places, inertia=(1e3, 1e3, 1e3),
+                          damping=undamped(probe=2 * 0.2 * HEAVE * MASS))
+    amplitude = 1e-6
+    sea = Sea([[amplitude, period, 0.0, 0.0]])
+    simulation = Simulation(boat, sea, State((0.0, 0.0, -DRAFT)), rate=rate, integrator='rk4')
+    for _ in range(25 * rate):
+        simulation.step()
+    start = simulation.time
+    time, states = run(simulation, 8.0)
+    omega = 2 * np.pi / period
+    angle = omega * (start + time)
+    shape = np.stack([np.cos(angle), np.sin(angle), np.ones_like(angle)], axis=1)
+    (a, b, _), *_ = np.linalg.lstsq(shape, states.position[:, 2], rcond=None)
+    k = omega**2 / GRAVITY
+    r, z = omega / HEAVE, 0.2
+    exact = abs(np.cos(k * half)) * np.sqrt(
+        (1 + (2 * z * r)**2) / ((1 - r**2)**2 + (2 * z * r)**2))
+    return np.hypot(a, b) / amplitude, exact
+
+
+@pytest.mark.parametrize(('period', 'published'), [
+    (20.0, 1.0050), (10.0, 1.0194), (5.0, 1.0676), (3.0, 1.1075), (2.0, 0.7225)])
+def test_heave_in_waves_is_that_of_a_damped_oscillator(period, published):
+    measured, exact = response(period, 100)
+    print(measured-exact)
+    assert exact == pytest.approx(published, abs=5e-5)
+    assert measured == pytest.approx(exact, abs=2e-5)
+
+
+def test_a_boat_drifts_to_the_speed_of_the_current():
+    damping = Damping(linear_retention=[0.5], angular_retention=[0.5])
+    sea = Sea(current=[0.4, -0.3])
+    for boat in (reference_boat(damping=damping), reference_boat(damping=undamped(probe=800.0))):
+        state = last_state(boat, State((0.0, 0.0, -DRAFT)), 60.0, sea=sea, rate=20)
+        assert state.velocity == pytest.approx((0.4, -0.3, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize('method', ['leapfrog', 'implicit', 'rk4'])
+def test_a_boat_that_moves_with_the_current_feels_none(method):
+    boat = reference_boat(damping=Damping(probe=500.0, linear=[100.0] * 6, quadratic=[100.0] * 6))
+    start = State((0.0, 0.0, -DRAFT), velocity=(0.4, -0.3, 0.0))
+    state = last_state(boat, start, 10.0, sea=Sea(current=[0.4, -0.3]), rate=20,
+                       integrator=method)
+    assert state.velocity == pytest.approx((0.4, -0.3, 0.0), abs=1e-12)
+    assert state.position == pytest.approx((4.0, -3.0, -DRAFT), abs=1e-11)
+
+
+def test_a_long_wave_carries_the_boat_up_and_down():
+    boat = reference_boat(damping=undamped(probe=1000.0))
+    sea = Sea([[1.0, 60.0, 0.0, 0.0]])
+    simulation = Simulation(boat, sea, State((0.0, 0.0, 1.0 - DRAFT)), rate=20)
+    _, states = run(simulation, 60.0)
+    surface = sea.elevation(states.position[:, 0], states.position[:, 1],
+                            np.arange(len(states.position)) / 20)
+    assert STIFFNESS / MASS > 1000 * (2 * np.pi / 60)**2
+    assert states.position[:, 2] == pytest.approx(surface - DRAFT, abs=3e-3)
