@@ -16,10 +16,10 @@
 
 from typing import NamedTuple
 
-from boats import GRAVITY
 from boat_buoyancy.physics.boat import Boat, Damping, State
 from boat_buoyancy.physics.hull import LAWS, probe_hull
 from boat_buoyancy.physics.waves import Sea
+from boats import GRAVITY
 import numpy as np
 from scipy.spatial.transform import Rotation
 

@@ -67,7 +67,8 @@ def test_no_horizontal_force_and_no_yaw_out_of_nothing_for_an_hour():
 @pytest.mark.parametrize('law', LAWS)
 @pytest.mark.parametrize('method', METHODS)
 def test_the_same_hour_for_every_method_and_law(method, law):
-    damping = undamped(linear_retention=[0.999], angular_retention=[0.999], probe=1.0)
+    # Without probe drag: that pushes a tilted boat sideways in earnest, see below.
+    damping = undamped(linear_retention=[0.999], angular_retention=[0.999])
     worst, _ = worst_strays(even_boat(law, damping), 3600, 20, method)
     assert worst.max() < 1e-9
 

@@ -91,7 +91,8 @@ class SpeedBound:
         forcing = self.forcing(force, torque) + self.power_rate
         if not self.drag > 0:
             return math.inf
-        return (forcing + (forcing * forcing + 4.0 * self.drag * self.power) ** 0.5) / (2.0 * self.drag)
+        root = (forcing * forcing + 4.0 * self.drag * self.power) ** 0.5
+        return (forcing + root) / (2.0 * self.drag)
 
 
 def speed_norm(boat, state):

@@ -39,7 +39,9 @@ class Guard:
         self._without_thrust = bound.forcing(), bound.limit()
         # Slower than this, the power of moving water over the speed means nothing.
         floor = (period * bound.power) ** 0.5 + 1e-150
-        self._reached = max(float(np.max(speed_norm(boat, state), initial=0.0)), floor)
+        with np.errstate(over='ignore'):
+            fastest = float(np.max(speed_norm(boat, state), initial=0.0))
+        self._reached = max(fastest, floor)
 
     @property
     def limit(self):

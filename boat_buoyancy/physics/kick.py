@@ -22,7 +22,6 @@ from typing import NamedTuple
 
 from .forces import DampingMatrix
 from .linear import factor_ldl_3, solve_ldl_3
-from .quaternion import cross
 
 
 class Factors(NamedTuple):
@@ -91,13 +90,16 @@ def factor(system, damping, half_step):
 
 def solve(factors, force, torque):
     """Return the accelerations (3), (3) of (M + dt/2 C) a = (force, torque)."""
-    ix, iy, iz = factors.inverse_linear
+    (ix, iy, iz), (sx, sy, sz), lower = factors
     fx, fy, fz = force
-    lx, ly, lz = cross(factors.lever, (ix * fx, iy * fy, iz * fz))
     tx, ty, tz = torque
-    angular = solve_ldl_3(factors.angular, tx - lx, ty - ly, tz - lz)
-    cx, cy, cz = cross(factors.lever, angular)
-    return (ix * (fx + cx), iy * (fy + cy), iz * (fz + cz)), angular
+    # Written out, as this runs twice a step: with the lever S, torque - S x (force / m) first,
+    # then (force + S x angular) / m.
+    fx, fy, fz = ix * fx, iy * fy, iz * fz
+    ax, ay, az = angular = solve_ldl_3(
+        lower, tx - (sy * fz - sz * fy), ty - (sz * fx - sx * fz), tz - (sx * fy - sy * fx))
+    return (fx + ix * (sy * az - sz * ay), fy + iy * (sz * ax - sx * az),
+            fz + iz * (sx * ay - sy * ax)), angular
 
 
 def accelerations(system, load, thrust, velocity, angular_velocity):

@@ -54,31 +54,30 @@ def _five_turns(backend, orientation, momentum, h, moments):
     return (a, b, c, w), (ma, mb, mc)
 
 
-def _rotate_principal(backend, orientation, angular_velocity, h, *, moments, order, sign):
+def _rotate_principal(backend, orientation, angular_velocity, h, *, moments, order, back, sign):
     """
     Rotate a body whose principal axes are its body axes, taken in ``order``.
 
-    ``moments`` are in that order; ``sign`` is -1 for an order of odd parity, where turning the
+    ``moments`` are in that order and ``back`` undoes it; ``sign`` is -1 for an order of odd parity, where turning the
     third axis round makes the three right-handed again.
     """
     i, j, k = order
-    w = orientation[3]
-    q, momentum = _five_turns(
-        backend, (orientation[i], orientation[j], sign * orientation[k], w),
-        (moments[0] * angular_velocity[i], moments[1] * angular_velocity[j],
-         sign * moments[2] * angular_velocity[k]), h, moments)
-    turned, spin = [0.0] * 3, [0.0] * 3
-    turned[i], turned[j], turned[k] = q[0], q[1], sign * q[2]
-    spin[i], spin[j], spin[k] = (momentum[0] / moments[0], momentum[1] / moments[1],
-                                 sign * momentum[2] / moments[2])
-    return normalise(backend, (*turned, q[3])), tuple(spin)
+    first, second, third = moments
+    (a, b, c, w), (x, y, z) = _five_turns(
+        backend, (orientation[i], orientation[j], sign * orientation[k], orientation[3]),
+        (first * angular_velocity[i], second * angular_velocity[j],
+         sign * third * angular_velocity[k]), h, moments)
+    turned, spin = (a, b, sign * c), (x / first, y / second, sign * z / third)
+    i, j, k = back
+    return (normalise(backend, (turned[i], turned[j], turned[k], w)),
+            (spin[i], spin[j], spin[k]))
 
 
 def _rotate_turned(backend, orientation, angular_velocity, h, *, moments, axes, matrix):
     """Rotate a body whose principal axes, the quaternion ``axes``, are not its body axes."""
     q, w = _rotate_principal(backend, multiply(orientation, axes),
                              to_body(matrix, angular_velocity), h,
-                             moments=moments, order=(0, 1, 2), sign=1.0)
+                             moments=moments, order=(0, 1, 2), back=(0, 1, 2), sign=1.0)
     return multiply(q, conjugate(axes)), to_world(matrix, w)
 
 
@@ -107,6 +106,7 @@ def free_rotation(boat):
     if np.array_equal(np.sort(axes.ravel()), [0] * 6 + [1] * 3):
         order = tuple(int(axis) for axis in np.argmax(axes, axis=0))
         return partial(_rotate_principal, order=order, moments=tuple(moments.tolist()),
+                       back=tuple(np.argsort(order).tolist()),
                        sign=float(np.linalg.det(axes)))
     quaternion = _quaternion_of(axes)
     return partial(_rotate_turned, moments=tuple(moments.tolist()), axes=quaternion,

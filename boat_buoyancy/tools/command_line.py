@@ -1,0 +1,71 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the command-line programs share: their scene argument, and how they say what is wrong."""
+
+import argparse
+import os
+import sys
+
+from ..physics.simulation import SimulationError
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """An argument parser that says what is wrong in one line and ends with exit code 2."""
+
+    def error(self, message):
+        """Print the message after the program's name and leave."""
+        self.exit(2, f'{self.prog}: {one_line(message)} (try {self.prog} --help)\n')
+
+
+def one_line(message):
+    """Return a message with every run of blanks and line ends as one blank."""
+    return ' '.join(str(message).split())
+
+
+def scene_parser(program, description):
+    """Return a parser that takes one parameter file, as ``scene``; add options to it."""
+    parser = OneLineParser(prog=program, description=description)
+    parser.add_argument('scene', metavar='SCENE',
+                        help='parameter file of the boat and its sea, as config/barge.yaml')
+    return parser
+
+
+def run(program, work):
+    """
+    Return the exit code of a program whose ``work`` is a function without arguments.
+
+    0; or 2 after one line on standard error for input that is wrong (ValueError, OSError) and a
+    motion that leaves what physics allows (SimulationError); or 130 when interrupted.  A reader
+    that closes the pipe early, as ``head`` does, is no error.
+    """
+    try:
+        work()
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Python flushes once more at exit; nobody reads that either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        place = f'{error.filename}: ' if error.filename is not None else ''
+        return _refuse(program, f'{place}{error.strerror or error}')
+    except (ValueError, SimulationError) as error:
+        return _refuse(program, error)
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+def _refuse(program, message):
+    print(f'{program}: {one_line(message)}', file=sys.stderr)
+    return 2

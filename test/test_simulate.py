@@ -1,0 +1,315 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+import math
+from pathlib import Path
+import re
+import subprocess
+import sys
+
+from boat_buoyancy.physics import load_scene
+from boat_buoyancy.physics.boat import body_frame, center_of_mass_state
+from boat_buoyancy.tools import animate, plot, simulate
+from boat_buoyancy.tools.recording import periods_of, record
+from boats import turned
+import numpy as np
+from PIL import Image
+import pytest
+
+CONFIG = Path(__file__).parents[1] / 'config'
+BARGE, DEFAULT = str(CONFIG / 'barge.yaml'), str(CONFIG / 'default.yaml')
+WAVES = {'sea.waves': [0.3, 4.0, 0.6, 0.0, 0.15, 2.7, -0.5, 1.0],
+         'boat.center_of_mass': [0.1, 0.05, -0.1], 'start.orientation': [0.1, -0.05, 0.4]}
+PARAMETERS = '/**:\n  ros__parameters:\n'
+
+
+def scene_file(path, values):
+    path.write_text(PARAMETERS + ''.join(f'    {name}: {value}\n'
+                                         for name, value in values.items()))
+    return str(path)
+
+
+@pytest.fixture
+def wavy(tmp_path):
+    return scene_file(tmp_path / 'wavy.yaml', WAVES)
+
+
+def table(path):
+    names, *rows = path.read_text().splitlines()
+    return names.split(','), np.array([[float(word) for word in row.split(',')] for row in rows])
+
+
+def refused(capsys, *words):
+    """Return the one line on standard error of arguments that are refused with exit code 2."""
+    try:
+        code = simulate.main(list(words))
+    except SystemExit as leaving:
+        code = leaving.code
+    out, err = capsys.readouterr()
+    assert code == 2 and out == '' and err.count('\n') == 1
+    assert err.startswith('buoyancy_simulate: ')
+    return err
+
+
+def test_table_holds_the_body_frame_and_the_depths_of_every_period(wavy, tmp_path):
+    thrust = [300.0, -20.0, 0.0, 0.0, 10.0, 1e2]
+    assert simulate.main([wavy, '--duration', '0.5', '--csv', str(tmp_path / 'a.csv'), '--rate',
+                          '50', '--thrust', *map(str, thrust)]) == 0
+    names, rows = table(tmp_path / 'a.csv')
+    assert names == ['time', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw', 'vx', 'vy', 'vz', 'wx', 'wy',
+                     'wz', 'depth_0', 'depth_1', 'depth_2', 'depth_3']
+    assert rows.shape == (26, 18)
+    scene = load_scene(wavy)
+    simulation = scene.simulation(rate=50.0)
+    for row in rows:
+        # Bitwise: every number is written with all its digits.
+        expected = np.concatenate([[simulation.time], *body_frame(scene.boat, simulation.state),
+                                   simulation.probe_depths])
+        assert row.tolist() == expected.tolist()
+        simulation.step(thrust)
+
+
+def test_twist_is_in_body_axes_at_ninety_degrees_of_yaw(tmp_path):
+    scene = scene_file(tmp_path / 'east.yaml', {
+        'start.orientation': [0.0, 0.0, math.pi / 2], 'damping.linear_retention': [1.0],
+        'damping.probe': 0.0})
+    assert simulate.main([scene, '--duration', '1', '--csv', str(tmp_path / 'a.csv'),
+                          '--thrust', '2000', '0', '0', '0', '0', '0']) == 0
+    names, rows = table(tmp_path / 'a.csv')
+    last = dict(zip(names, rows[-1]))
+    # 2000 N on 2000 kg for a second: 1 m/s ahead, which is north.
+    assert last['vx'] == pytest.approx(1.0, abs=1e-3) and abs(last['vy']) < 1e-9
+    assert last['y'] == pytest.approx(0.5, abs=1e-3) and abs(last['x']) < 1e-9
+
+
+def test_body_frame_is_not_the_centre_of_mass():
+    scene = load_scene(WAVES)
+    recording = record(scene, scene.simulation(), 30, [0.0] * 6)
+    state = center_of_mass_state(scene.boat, recording.position[-1], recording.orientation[-1],
+                                 recording.velocity[-1], recording.angular_velocity[-1])
+    assert state.position == pytest.approx(recording.simulation.state.position, abs=1e-12)
+    assert state.velocity == pytest.approx(recording.simulation.state.velocity, abs=1e-12)
+    assert np.linalg.norm(state.position - recording.position[-1]) == pytest.approx(0.15)
+
+
+@pytest.mark.parametrize(('duration', 'rate', 'periods'), [
+    (0.3, 10.0, 3), (0.31, 10.0, 4), (1e-9, 10.0, 1), (20.0, 100.0, 2000), (0.7, 1000.0, 700),
+    (86400.0, 100.0, 8640000), (1.0, 3.0, 3)])
+def test_periods_cover_the_duration(duration, rate, periods):
+    assert periods_of(duration, rate) == periods
+
+
+def test_summary_says_what_was_run_and_how_it_ended(capsys):
+    assert simulate.main([BARGE, '--duration', '2', '--integrator', 'rk4', '--rate', '20',
+                          '--substeps', '3', '--thrust', '-1e3', '0', '0', '0', '0', '0']) == 0
+    out, err = capsys.readouterr()
+    assert err == ''
+    assert f'{BARGE}: 2 s at 20 Hz, rk4, 3 steps per period\n' in out
+    assert 'thrust   -1000 0 0 N, 0 0 0 N m, body axes\n' in out
+    # 20 x 6 x 3 m, half of it under water.
+    assert float(re.search(r'draft ([\d.]+) m', out)[1]) == pytest.approx(1.5, abs=1e-3)
+    assert re.search(r'attitude roll .*, pitch .*, yaw .* deg\n', out)
+    assert re.search(r'120 steps in [\d.e-]+ s: [\d.e+]+ steps/s, [\d.e+]+ times real time', out)
+
+
+def test_warnings_of_the_scene_are_in_the_summary(tmp_path, capsys):
+    scene = scene_file(tmp_path / 'stone.yaml', {
+        'probes.positions': [0.5, 0.5, 0.0, 0.5, -0.5, 0.0, -0.5, 0.0, 0.0],
+        'probes.floatiness': 0.5})
+    assert simulate.main([scene, '--duration', '0.1']) == 0
+    warnings = load_scene(scene).simulation().warnings
+    out = capsys.readouterr().out
+    assert warnings and all(f'warning: {sentence}\n' in out for sentence in warnings)
+
+
+@pytest.mark.parametrize('ending', plot.ENDINGS)
+def test_plot_is_drawn(wavy, tmp_path, ending):
+    path = tmp_path / f'motion{ending}'
+    assert simulate.main([wavy, '--duration', '1', '--plot', str(path)]) == 0
+    assert path.stat().st_size > 5000
+
+
+def plotted(values, duration=1.0, **options):
+    from matplotlib.figure import Figure
+    scene = load_scene(values)
+    simulation = scene.simulation(**options)
+    recording = record(scene, simulation, periods_of(duration, simulation.rate), [0.0] * 6)
+    return recording, Figure().subplots(3, 1)
+
+
+def test_plot_shows_the_run_with_units_on_every_axis():
+    recording, (heave, tilt, depth) = plotted(WAVES)
+    plot.draw_heave(heave, recording)
+    plot.draw_tilt(tilt, recording)
+    plot.draw_depths(depth, recording)
+    assert [axes.get_ylabel() for axes in (heave, tilt, depth)] == [
+        'height (m)', 'angle (deg)', 'probe depth (m)\nunder water']
+    surface, origin = heave.get_lines()
+    assert np.array_equal(origin.get_ydata(), recording.position[:, 2])
+    expected = [recording.scene.sea.elevation(x, y, t)
+                for (x, y, _), t in zip(recording.position, recording.time)]
+    assert surface.get_ydata() == pytest.approx(expected, abs=1e-12)
+    roll, pitch = tilt.get_lines()
+    assert np.radians(roll.get_ydata()[0]) == pytest.approx(0.1, abs=1e-12)
+    assert np.radians(pitch.get_ydata()[0]) == pytest.approx(-0.05, abs=1e-12)
+    lines = depth.get_lines()
+    assert [line.get_label() for line in lines] == [
+        'water surface', 'probe 0', 'probe 1', 'probe 2', 'probe 3']
+    for i, line in enumerate(lines[1:]):
+        assert np.array_equal(line.get_ydata(), recording.depths[:, i])
+    # Deeper is further down, and nothing is cut off.
+    bottom, top = depth.get_ylim()
+    assert bottom > recording.depths.max() and top < min(recording.depths.min(), 0.0)
+
+
+def test_many_probes_are_drawn_as_their_spread():
+    recording, (_, _, depth) = plotted({'hull.probes': [4, 3]}, 0.1)
+    plot.draw_depths(depth, recording)
+    assert len(depth.get_lines()) == 2
+    assert depth.get_legend_handles_labels()[1] == [
+        'water surface', 'all 12 probes', 'their mean']
+
+
+def test_animation_has_a_frame_every_eighty_milliseconds_in_real_time(wavy, tmp_path):
+    path = tmp_path / 'boat.gif'
+    assert simulate.main([wavy, '--duration', '0.4', '--animate', str(path)]) == 0
+    with Image.open(path) as image:
+        assert image.n_frames == 5 and image.info['duration'] == 80
+        first = np.asarray(image.convert('RGB'), int)
+        image.seek(4)
+        assert (abs(np.asarray(image.convert('RGB'), int) - first).max(axis=2) > 50).sum() > 100
+    # The largest animation stays small enough for a README.
+    assert path.stat().st_size / 5 * animate.MAX_FRAMES < 3e6
+
+
+def test_long_animations_are_played_faster():
+    scene = load_scene({})
+    simulation = scene.simulation(rate=10.0)
+    view = animate.view_of(record(scene, simulation, 600, [0.0] * 6))
+    assert len(view.rows) == animate.MAX_FRAMES
+    assert view.pace == pytest.approx(60.0 / (0.08 * animate.MAX_FRAMES))
+    assert view.rows[0] == 0 and np.ptp(np.diff(view.rows)) <= 1
+
+
+def test_hull_of_a_box_is_drawn_as_that_box():
+    for probes in ([2, 2], [4, 3]):
+        corners = animate.hull_corners(load_scene({
+            'hull.size': [5.0, 2.0, 0.8], 'hull.probes': probes, 'hull.bottom': -0.3}).boat)
+        assert corners.min(axis=0) == pytest.approx((-2.5, -1.0, -0.3), abs=1e-12)
+        assert corners.max(axis=0) == pytest.approx((2.5, 1.0, 0.5), abs=1e-12)
+
+
+def test_hull_of_probes_reaches_to_the_outermost():
+    corners = animate.hull_corners(load_scene({
+        'probes.positions': [1.0, 0.5, -0.1, -2.0, 0.0, 0.0, 1.0, -0.5, -0.1],
+        'probes.stiffness': 4.0}).boat)
+    assert corners.min(axis=0) == pytest.approx((-2.0, -0.5, -0.1))
+    assert corners.max(axis=0) == pytest.approx((1.0, 0.5, 0.25))
+    lonely = animate.hull_corners(load_scene({'probes.positions': [0.0, 0.0, 0.0]}).boat)
+    assert (np.ptp(lonely, axis=0) > 0.1).all()
+
+
+def test_outline_is_the_convex_hull():
+    points = np.random.default_rng(1).normal(size=(200, 2))
+    line = animate.outline(points)
+    edges = np.roll(line, -1, axis=0) - line
+    turns = edges[:, 0] * np.roll(edges, -1, axis=0)[:, 1] - (
+        edges[:, 1] * np.roll(edges, -1, axis=0)[:, 0])
+    assert (turns > 0).all()
+    for point in points:
+        beside = point - line
+        assert (edges[:, 0] * beside[:, 1] - edges[:, 1] * beside[:, 0] > -1e-12).all()
+
+
+def test_boat_is_drawn_where_it_is():
+    scene = load_scene({'start.position': [3.0, -2.0, 0.5], 'start.orientation': [0.2, 0.1, 1.0]})
+    recording = record(scene, scene.simulation(), 1, [0.0] * 6)
+    probes = animate.placed(recording, 0, scene.boat.hull.positions)
+    # On flat water a probe is as deep as it lies below 0.
+    assert probes[:, 2] == pytest.approx(-recording.depths[0], abs=1e-12)
+    origin = animate.placed(recording, 0, np.zeros((1, 3)))
+    assert origin == pytest.approx(np.array([[3.0, -2.0, 0.5]]), abs=1e-12)
+    assert recording.orientation[0] == pytest.approx(turned(0.2, 0.1, 1.0), abs=1e-15)
+
+
+@pytest.mark.parametrize(('words', 'says'), [
+    (['--duration', '-5'], r'--duration: expected a finite number above 0, got -5.0'),
+    (['--duration', '0'], '--duration: expected a finite number above 0'),
+    (['--duration', 'nan'], '--duration: expected a finite number above 0, got nan'),
+    (['--duration', 'inf'], '--duration: expected a finite number above 0, got inf'),
+    (['--duration', 'long'], "--duration: invalid float value: 'long'"),
+    (['--duration', '1e9'], '--duration: expected at most 10000000 periods, got 1e.09 s'),
+    ([], 'the following arguments are required: --duration'),
+    (['--duration', '1', '--rate', '0'], 'rate: .*got 0.0'),
+    (['--duration', '1', '--rate', '-1e3'], 'rate: .*got -1000.0'),
+    (['--duration', '1', '--rate', 'nan'], 'rate: .*got nan'),
+    (['--duration', '1', '--integrator', 'heun'], "integrator: expected .*got 'heun'"),
+    (['--duration', '1', '--substeps', '-1'], 'substeps: .*got -1'),
+    (['--duration', '1', '--substeps', '1.5'], '--substeps: invalid int value'),
+    (['--duration', '1', '--thrust', '1', '2', '3', '4', '5'],
+     '--thrust: expected 6 arguments'),
+    (['--duration', '1', '--thrust', '1', '2', '3', '4', '5', 'nan'],
+     r'--thrust\[5\]: expected a finite number, got nan'),
+    (['--duration', '1', '--thrust', '-inf', '2', '3', '4', '5', '6'],
+     r'--thrust\[0\]: expected a finite number, got -inf'),
+    (['--duration', '1', '--csv', '/no/such/folder/a.csv'],
+     '/no/such/folder/a.csv: No such file or directory'),
+    (['--duration', '1', '--csv', '/'], '/: Is a directory'),
+    (['--duration', '1', '--plot', 'motion.jpeg2'],
+     "--plot: expected a file name that ends in .png or .pdf or .svg, got 'motion.jpeg2'"),
+    (['--duration', '1', '--animate', 'motion.png'],
+     "--animate: expected a file name that ends in .gif, got 'motion.png'"),
+    (['--duration', '1', '--speed', '3'], 'unrecognized arguments: --speed 3')])
+def test_bad_input_gets_one_line_and_exit_code_2(words, says, capsys):
+    assert re.search(says, refused(capsys, DEFAULT, *words))
+
+
+def test_missing_scene_gets_one_line_and_exit_code_2(tmp_path, capsys):
+    missing = str(tmp_path / 'none.yaml')
+    assert missing in refused(capsys, missing, '--duration', '1')
+
+
+def test_file_that_cannot_be_written_is_refused_before_the_run(capsys, monkeypatch):
+    monkeypatch.setattr(simulate, 'record', lambda *_: pytest.fail('it ran'))
+    refused(capsys, DEFAULT, '--duration', '1', '--animate', '/no/such/folder/a.gif')
+
+
+def test_refused_run_leaves_no_file_behind(tmp_path, capsys):
+    path = tmp_path / 'a.csv'
+    refused(capsys, DEFAULT, '--duration', '1', '--csv', str(path), '--thrust', 'nan', '0', '0',
+            '0', '0', '0')
+    assert not path.exists()
+
+
+@pytest.mark.parametrize('option', ['--plot', '--animate'])
+def test_missing_matplotlib_is_said_with_what_to_install(option, tmp_path):
+    name = tmp_path / ('a.png' if option == '--plot' else 'a.gif')
+    code = ('import sys; sys.path[:0] = {path!r}\n'
+            'class Blocked:\n'
+            '    def find_spec(self, name, path=None, target=None):\n'
+            '        if name.partition(".")[0] in ("matplotlib", "PIL"):\n'
+            '            raise ModuleNotFoundError(name)\n'
+            'sys.meta_path.insert(0, Blocked())\n'
+            'from boat_buoyancy.tools import simulate\n'
+            'sys.exit(simulate.main({words!r}))')
+    words = [DEFAULT, '--duration', '0.1', option, str(name)]
+    done = subprocess.run([sys.executable, '-c', code.format(path=sys.path, words=words)],
+                          capture_output=True, text=True)
+    assert done.returncode == 2 and done.stdout == '' and done.stderr.count('\n') == 1
+    assert 'pip install "boat_buoyancy[chart]", or apt install python3-matplotlib' in done.stderr
+    # Without them the program runs all the same.
+    done = subprocess.run(
+        [sys.executable, '-c', code.format(path=sys.path, words=words[:3])],
+        capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
