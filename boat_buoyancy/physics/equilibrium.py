@@ -20,6 +20,7 @@ roll, pitch, yaw.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import permutations
 
 import numpy as np
@@ -53,20 +54,19 @@ class Equilibrium:
     """
     The linear system M a + C u + K x = 0 of a boat lying level in still water.
 
-    All (6, 6): ``mass`` M; ``stiffness`` K; ``positive_stiffness``, what the implicit method
-    takes of it; ``surface_stiffness`` K+ with every probe at the surface;
+    All (6, 6): ``mass`` M; ``stiffness`` K; ``surface_stiffness`` K+, every probe at the surface;
     ``damping`` C at the draft, ``wet_damping`` with every probe under water, ``air_damping`` with
-    none; ``retention`` the part of ``damping`` that retention gives.
+    none; ``retention`` and ``wet_retention`` what retention gives of the first two.
     """
 
     mass: np.ndarray
     stiffness: np.ndarray
-    positive_stiffness: np.ndarray
     surface_stiffness: np.ndarray
     damping: np.ndarray
     wet_damping: np.ndarray
     air_damping: np.ndarray
     retention: np.ndarray
+    wet_retention: np.ndarray
 
     @classmethod
     def of(cls, boat):
@@ -89,15 +89,37 @@ class Equilibrium:
         retention = submersion * water + (1.0 - submersion) * air
         linear = np.diag(boat.damping.linear)
         lift_stiffness = _lift_stiffness(boat, hull.max_force * slope)
-        pendulum = np.diag([0.0, 0.0, 0.0, 1.0, 1.0, 0.0])
         return cls(
             mass=boat.mass_matrix,
-            stiffness=lift_stiffness + swing * pendulum,
-            positive_stiffness=lift_stiffness + max(swing, 0.0) * pendulum,
+            stiffness=lift_stiffness + np.diag([0.0, 0.0, 0.0, swing, swing, 0.0]),
             surface_stiffness=_lift_stiffness(boat, hull.stiffness),
             damping=retention + submersion * linear + _probe_damping(boat, ramp),
             wet_damping=water + linear + _probe_damping(boat, np.ones(len(ramp))),
-            air_damping=air, retention=retention)
+            air_damping=air, retention=retention, wet_retention=water)
+
+    @cached_property
+    def modes(self):
+        """Return {name: `Mode`}, see `modes`."""
+        # What the other three coordinates, which nothing restores, leave of the inertia.
+        root = _square_root(np.linalg.inv(self.mass)[RESTORED, RESTORED])
+        squared, vectors = np.linalg.eigh(root @ self.stiffness[RESTORED, RESTORED] @ root)
+        energy = vectors ** 2
+        order = max(permutations(range(3)),
+                    key=lambda order: sum(energy[i, mode] for i, mode in enumerate(order)))
+        return {name: _mode(self, squared[mode], root @ vectors[:, mode])
+                for name, mode in zip(MODES, order)}
+
+    @cached_property
+    def highest_frequency(self):
+        """Return omega_max in rad/s, see `highest_frequency`."""
+        return float(np.sqrt(max(0.0, _greatest(self.mass, self.surface_stiffness),
+                                 _greatest(self.mass, self.stiffness))))
+
+    @cached_property
+    def highest_damping_rate(self):
+        """Return the greatest eigenvalue of M^-1 C in 1/s, all wet or in air."""
+        return max(_greatest(self.mass, self.wet_damping),
+                   _greatest(self.mass, self.air_damping))
 
 
 def equilibrium_stiffness(boat):
@@ -118,16 +140,7 @@ def modes(boat):
     Coupled modes take the name of the coordinate that holds most of their kinetic energy.  The
     damping ratio is that of the mode's own shape, phi^T C phi / (2 omega phi^T M phi).
     """
-    rest = Equilibrium.of(boat)
-    # What the other three coordinates, which nothing restores, leave of the inertia.
-    mobility = np.linalg.inv(rest.mass)[RESTORED, RESTORED]
-    root = _square_root(mobility)
-    squared, vectors = np.linalg.eigh(root @ rest.stiffness[RESTORED, RESTORED] @ root)
-    energy = vectors ** 2
-    order = max(permutations(range(3)),
-                key=lambda order: sum(energy[i, mode] for i, mode in enumerate(order)))
-    return {name: _mode(rest, squared[mode], root @ vectors[:, mode])
-            for name, mode in zip(MODES, order)}
+    return Equilibrium.of(boat).modes
 
 
 def _mode(rest, squared, shape):
@@ -150,15 +163,12 @@ def highest_frequency(boat):
     omega_max^2 is the larger of the greatest eigenvalues of M^-1 K+ with all probes at the
     surface and of M^-1 K_eq: the first alone misses a boat hung below its probes.
     """
-    rest = Equilibrium.of(boat)
-    return float(np.sqrt(max(0.0, _greatest(rest.mass, rest.surface_stiffness),
-                             _greatest(rest.mass, rest.stiffness))))
+    return Equilibrium.of(boat).highest_frequency
 
 
 def highest_damping_rate(boat):
     """Return the greatest eigenvalue of M^-1 C in 1/s, all wet or in air."""
-    rest = Equilibrium.of(boat)
-    return max(_greatest(rest.mass, rest.wet_damping), _greatest(rest.mass, rest.air_damping))
+    return Equilibrium.of(boat).highest_damping_rate
 
 
 def _greatest(mass, matrix):

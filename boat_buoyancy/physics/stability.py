@@ -23,10 +23,12 @@ import math
 
 from . import checks
 from .bound import SpeedBound
-from .equilibrium import (equilibrium_stiffness, highest_damping_rate, highest_frequency, Mode,
-                          modes)
+from .equilibrium import (Equilibrium, equilibrium_stiffness, highest_damping_rate,
+                          highest_frequency, Mode, modes)
 from .hydrostatics import draft, rest_state
-from .step_limits import least, MATRICES, max_stable_steps, step_limit, StepLimit
+from .integrators import METHODS
+from .step_limits import (combined_step, damping_step, least, max_stable_steps, step_limit,
+                          StepLimit)
 
 __all__ = ['CALM', 'equilibrium_stiffness', 'highest_damping_rate', 'highest_frequency',
            'MAX_SUBSTEPS', 'max_stable_steps', 'Mode', 'modes', 'Plan', 'plan', 'SpeedBound',
@@ -67,12 +69,13 @@ def plan(boat, *, integrator='leapfrog', rate=100.0, substeps=0, allow_unstable=
     and 1 for implicit; more where that is not stable, and implicit where it is more than 64.
     ValueError when the substeps given break a limit: the limit, and what to do.
     """
-    if integrator not in MATRICES:
-        raise ValueError(f'integrator: expected one of {", ".join(MATRICES)}, got {integrator!r}')
+    if integrator not in METHODS:
+        raise ValueError(f'integrator: expected one of {", ".join(METHODS)}, got {integrator!r}')
     rate = checks.number('rate', rate, above=0.0)
     asked = checks.count('substeps', substeps, at_least=0)
-    limit = _limit(boat, integrator)
-    needed = _needed(boat, integrator, rate, limit)
+    rest = Equilibrium.of(boat)
+    limit = _limit(boat, rest, integrator)
+    needed = _needed(rest, integrator, rate, limit)
     warnings = []
     if not asked and needed > MAX_SUBSTEPS:
         warnings.append(
@@ -80,8 +83,7 @@ def plan(boat, *, integrator='leapfrog', rate=100.0, substeps=0, allow_unstable=
             'are chosen), so the boat is stepped by implicit with one step: it never blows up, '
             'but it damps free oscillation; to keep the method, lower probes.stiffness or '
             'damping.probe, raise rate, or give substeps yourself.')
-        integrator, needed = 'implicit', 1
-        limit = _limit(boat, integrator)
+        integrator, needed, limit = 'implicit', 1, None
     chosen = asked or needed
     if limit is not None and 1.0 / (rate * chosen) >= limit:
         broken = (f'{chosen} at {rate:g} Hz is a step of {1.0 / (rate * chosen):.4g} s, and '
@@ -92,32 +94,32 @@ def plan(boat, *, integrator='leapfrog', rate=100.0, substeps=0, allow_unstable=
         warnings.append(f'The step is too long: {broken}, so the boat will shake itself to '
                         f'pieces; {cure}.')
     else:
-        warnings += _rattling(boat, integrator, rate, chosen, needed)
+        warnings += _rattling(boat, rest, integrator, rate, chosen, needed)
     if integrator == 'euler':
-        warnings.append(_growing(boat, rate, chosen))
-    return Plan(integrator, chosen, (*warnings, *damping_warnings(boat)))
+        warnings.append(_growing(rest, rate, chosen))
+    return Plan(integrator, chosen, (*warnings, *_creeping(boat, rest)))
 
 
-def _needed(boat, integrator, rate, limit):
+def _needed(rest, integrator, rate, limit):
     """Return the substeps that a method needs to settle at rest."""
     if integrator == 'implicit':
         return 1
-    needed = highest_frequency(boat) / (rate * CALM)
+    needed = rest.highest_frequency / (rate * CALM)
     if integrator != 'leapfrog':
-        needed = max(needed, highest_damping_rate(boat) / (rate * DAMPED))
+        needed = max(needed, rest.highest_damping_rate / (rate * DAMPED))
     # A quotient that is a whole number but for round-off is that number.
     count = max(1, math.ceil(needed * (1.0 - 1e-12)))
     # Stiffness and damping together can ask for more than either.
     return count if limit is None else max(count, math.floor(1.0 / (rate * limit)) + 1)
 
 
-def _limit(boat, integrator):
+def _limit(boat, rest, integrator):
     """Return the step in s from which a method is refused, or None."""
-    limits = step_limit(boat, integrator)
+    limit = damping_step(rest, integrator)
     if integrator == 'euler':
         # Its oscillation always grows, which is warned of; here only what explodes at once.
-        return limits.damping
-    limit = least(limits.combination, limits.damping)
+        return limit
+    limit = least(limit, combined_step(rest, integrator))
     rate = float(boat.damping.rates.max())
     if integrator == 'symplectic_euler' and rate > 0:
         # From d h = 1 on, 1 - d h turns the velocity round instead of slowing it.
@@ -125,9 +127,9 @@ def _limit(boat, integrator):
     return limit
 
 
-def _rattling(boat, integrator, rate, substeps, needed):
+def _rattling(boat, rest, integrator, rate, substeps, needed):
     """Yield the sentence for a step that is stable but too long to come to rest with."""
-    angle = highest_frequency(boat) / (rate * substeps)
+    angle = rest.highest_frequency / (rate * substeps)
     if integrator == 'implicit' or angle <= CALM * (1.0 + 1e-12):
         return
     yield (f'At {rate * substeps:g} Hz this boat will rattle at rest: draft '
@@ -136,17 +138,21 @@ def _rattling(boat, integrator, rate, substeps, needed):
            'probes.stiffness.')
 
 
-def _growing(boat, rate, substeps):
+def _growing(rest, rate, substeps):
     """Return the sentence that euler always gets."""
-    angle = highest_frequency(boat) / (rate * substeps)
+    angle = rest.highest_frequency / (rate * substeps)
     return ('euler is for study only: without damping every oscillation grows, here by a factor '
             f'of {math.hypot(1.0, angle):.6g} a step (omega h = {angle:.3g}), until the boat '
             'jumps about; take integrator: leapfrog.')
 
 
 def damping_warnings(boat):
-    """Return the sentence for probe damping that is far above critical, in a tuple."""
-    heave = modes(boat)['heave'].angular_frequency
+    """Return the sentence on a `Boat` with probe damping far above critical, in a tuple."""
+    return _creeping(boat, Equilibrium.of(boat))
+
+
+def _creeping(boat, rest):
+    heave = rest.modes['heave'].angular_frequency
     if heave is None:
         return ()
     critical = 2.0 * boat.mass * heave

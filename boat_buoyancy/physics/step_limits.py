@@ -18,6 +18,10 @@ The largest stable step of each step method, from its own amplification matrix.
 The linear system of a boat at rest is stepped by each method's formula, written as a matrix on
 (modal displacements q, velocities u); the step is stable while no eigenvalue leaves the unit
 circle.  Coordinates are those in which M is the unit matrix and K is diagonal.
+
+``implicit`` needs no matrix.  It takes a stiffness P that is no less than K, and then the energy
+E = u^T M u / 2 + x^T K x / 2 never grows, at any step h: E+ - E = -|u+ - u|_M^2 / 2 - h u+^T C u+
+- h^2 u+^T (P - K/2) u+.
 """
 
 from dataclasses import dataclass, replace
@@ -25,9 +29,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .equilibrium import Equilibrium
+from .integrators import METHODS
 
-# An eigenvalue this far outside the unit circle is round-off.
-ROUND_OFF = 1e-9
+# An eigenvalue this far outside the unit circle is round-off, which grows with the square of
+# the step.
+ROUND_OFF, ROUND_OFF_RATE = 1e-9, 1e-17
 # Steps tried, in units of the fastest time of the system, before there is no limit.
 TRIED = np.geomspace(1e-2, 1e6, 101)
 
@@ -52,13 +58,12 @@ class Modal:
     A linear system u' = -D u - E^T L q, q' = E u with unit mass.
 
     ``squared`` (p,) the positive omega^2, L; ``damping`` (6, 6) D and ``retention`` its part
-    from retention; ``lift`` (6, 6) the stiffness that implicit takes.  E picks the first p of u.
+    from retention.  E picks the first p of u.
     """
 
     squared: np.ndarray
     damping: np.ndarray
     retention: np.ndarray
-    lift: np.ndarray
 
     @classmethod
     def of(cls, rest, damping, retention):
@@ -72,8 +77,7 @@ class Modal:
         squared, vectors = squared[order], vectors[:, order]
         basis = inverse.T @ vectors
         return cls(squared[squared > 1e-12 * np.abs(squared).max(initial=1e-300)],
-                   *(basis.T @ matrix @ basis for matrix in (
-                       damping, retention, rest.positive_stiffness)))
+                   *(basis.T @ matrix @ basis for matrix in (damping, retention)))
 
     @property
     def pick(self):
@@ -96,12 +100,6 @@ class Modal:
         """Return the highest rate in the system in 1/s."""
         return max(np.sqrt(self.squared.max(initial=0.0)), np.linalg.norm(self.damping, 2))
 
-    def drift_after(self, pulled, kept, h):
-        """Return the matrix of u+ = kept u - pulled q, then q+ = q + h E u+."""
-        unit = np.eye(len(self.squared))
-        return np.block([[unit - h * self.pick @ pulled, h * self.pick @ kept],
-                         [-pulled, kept]])
-
 
 def leapfrog_matrix(modal, h):
     """Return half a kick by Crank-Nicolson, a drift, half a kick."""
@@ -114,17 +112,14 @@ def leapfrog_matrix(modal, h):
     return kick @ drift @ kick
 
 
-def implicit_matrix(modal, h):
-    """Return (1 + h D + h^2 K+) u+ = u - h K q, then drift."""
-    kept = np.linalg.inv(np.eye(6) + h * modal.damping + h * h * modal.lift)
-    return modal.drift_after(h * kept @ modal.pull, kept, h)
-
-
 def symplectic_euler_matrix(modal, h):
     """Return all explicit forces, then the velocity's factor 1 - retention rate h, then drift."""
     factor = np.eye(6) - h * modal.retention
-    forced = np.eye(6) - h * (modal.damping - modal.retention)
-    return modal.drift_after(h * factor @ modal.pull, factor @ forced, h)
+    kept = factor @ (np.eye(6) - h * (modal.damping - modal.retention))
+    pulled = h * factor @ modal.pull
+    return np.block([
+        [np.eye(len(modal.squared)) - h * modal.pick @ pulled, h * modal.pick @ kept],
+        [-pulled, kept]])
 
 
 def rk4_matrix(modal, h):
@@ -139,7 +134,7 @@ def euler_matrix(modal, h):
     return np.eye(6 + len(modal.squared)) + h * modal.generator
 
 
-MATRICES = {'leapfrog': leapfrog_matrix, 'implicit': implicit_matrix, 'rk4': rk4_matrix,
+MATRICES = {'leapfrog': leapfrog_matrix, 'rk4': rk4_matrix,
             'symplectic_euler': symplectic_euler_matrix, 'euler': euler_matrix}
 
 
@@ -152,18 +147,19 @@ def largest_step(method, modal):
     """Return the step in s at which a method first turns unstable, None or 0.0 as `StepLimit`."""
     if method == 'euler':
         return _largest_euler_step(modal)
-    if not modal.fastest > 0:
+    if method == 'implicit' or not modal.fastest > 0:
         return None
     tried = TRIED / modal.fastest
     factors = np.abs(np.linalg.eigvals([MATRICES[method](modal, h) for h in tried])).max(axis=1)
-    grows = factors > 1.0 + ROUND_OFF
+    limit = 1.0 + ROUND_OFF + ROUND_OFF_RATE * TRIED ** 2
+    grows = factors > limit
     if not grows.any():
         return None
     first = int(np.argmax(grows))
-    stable, unstable = (tried[first - 1] if first else 0.0), tried[first]
+    stable, unstable, limit = tried[first - 1] if first else 0.0, tried[first], limit[first]
     while unstable - stable > 1e-6 * unstable:
         middle = 0.5 * (stable + unstable)
-        if growth(method, modal, middle) > 1.0 + ROUND_OFF:
+        if growth(method, modal, middle) > limit:
             unstable = middle
         else:
             stable = middle
@@ -180,18 +176,27 @@ def _largest_euler_step(modal):
     return step if step * np.abs(values).max() > ROUND_OFF else 0.0
 
 
+def damping_step(rest, method):
+    """Return the largest step in s without stiffness, in water or in air, or None."""
+    if method in ('leapfrog', 'implicit'):
+        # Crank-Nicolson and backward Euler: stable at any damping.
+        return None
+    return least(*(largest_step(method, replace(
+        Modal.of(rest, damping, retention), squared=np.empty(0)))
+        for damping, retention in ((rest.wet_damping, rest.wet_retention),
+                                   (rest.air_damping, rest.air_damping))))
+
+
+def combined_step(rest, method):
+    """Return the largest step in s at rest, stiffness and damping together, or None."""
+    return largest_step(method, Modal.of(rest, rest.damping, rest.retention))
+
+
 def step_limit(boat, method):
-    """Return the `StepLimit` of one method for a boat at rest."""
-    rest = Equilibrium.of(boat)
-    water, air = boat.retention_damping
-    nothing = np.zeros((6, 6))
-    undamped = Modal.of(rest, nothing, nothing)
-    free = [replace(Modal.of(rest, *damping), squared=np.empty(0), lift=nothing)
-            for damping in ((rest.wet_damping, water), (rest.air_damping, air))]
-    return StepLimit(
-        oscillation=largest_step(method, undamped),
-        damping=least(*(largest_step(method, modal) for modal in free)),
-        combination=largest_step(method, Modal.of(rest, rest.damping, rest.retention)))
+    """Return the `StepLimit` of one method for a `Boat` at rest."""
+    rest, nothing = Equilibrium.of(boat), np.zeros((6, 6))
+    return StepLimit(oscillation=largest_step(method, Modal.of(rest, nothing, nothing)),
+                     damping=damping_step(rest, method), combination=combined_step(rest, method))
 
 
 def least(*steps):
@@ -206,5 +211,4 @@ def max_stable_steps(boat):
     None = no limit, 0.0 = never stable: the combination of `StepLimit`.
     """
     rest = Equilibrium.of(boat)
-    modal = Modal.of(rest, rest.damping, rest.retention)
-    return {method: largest_step(method, modal) for method in MATRICES}
+    return {method: combined_step(rest, method) for method in METHODS}
