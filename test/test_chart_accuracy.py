@@ -102,7 +102,7 @@ def test_order_on_the_smooth_scene_is_that_of_the_method(rows, method, order):
 @pytest.mark.parametrize('method', ['leapfrog', 'rk4'])
 def test_kinks_leave_every_method_at_second_order(rows, method):
     found = [row for row in select(rows, 'drop', method) if row.evaluations >= 10]
-    assert observed_order(found) == pytest.approx(2.0, abs=0.45)
+    assert observed_order(found) == pytest.approx(2.0, abs=0.2)
 
 
 def test_implicit_is_of_first_order_in_waves(rows):

@@ -17,13 +17,12 @@
 from pathlib import Path
 import re
 
-import numpy as np
-import pytest
-
 from boat_buoyancy.physics import load_scene, State, yaml_file
 from boat_buoyancy.physics.boat import body_frame, center_of_mass_state
 from boat_buoyancy.physics.parameters import PARAMETERS
 from boat_buoyancy.physics.quaternion import from_roll_pitch_yaw, to_roll_pitch_yaw
+import numpy as np
+import pytest
 
 CONFIG = Path(__file__).parents[1] / 'config'
 NAMES = sorted(path.stem for path in CONFIG.glob('*.yaml'))

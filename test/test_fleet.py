@@ -12,8 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
+from boat_buoyancy.physics.blocks import block_size, MOST_BOATS
 from boat_buoyancy.physics.boat import State
-from boat_buoyancy.physics.simulation import BLOCK, Simulation
+from boat_buoyancy.physics.simulation import Simulation
 from boat_buoyancy.physics.waves import Sea
 from boats import asymmetric_boat, LAWS, METHODS, random_states, wind_sea
 import numpy as np
@@ -81,19 +82,37 @@ def test_one_thrust_serves_the_whole_fleet():
 
 
 def test_fleet_larger_than_a_block_is_stepped_whole():
-    count = 2 * BLOCK + 3
-    boat, sea, starts = asymmetric_boat(), wind_sea(), random_states((count,), 6)
+    boat, sea = asymmetric_boat(), wind_sea()
+    block = block_size(len(boat.hull.share), len(sea.waves))
+    count = 2 * block + 3
+    starts = random_states((count,), 6)
     thrusts = np.random.default_rng(7).normal(size=(count, 6)) * 500.0
     fleet = Simulation(boat, sea, starts)
     for _ in range(3):
         fleet.step(thrusts)
     state, depths = fleet.state, fleet.probe_depths
-    for place in (0, BLOCK - 1, BLOCK, 2 * BLOCK - 1, 2 * BLOCK, count - 1):
+    for place in (0, block - 1, block, 2 * block - 1, 2 * block, count - 1):
         single = Simulation(boat, sea, one_of(starts, place))
         for _ in range(3):
             single.step(thrusts[place])
         assert difference(single.state, state, place) < 1e-12
         assert abs(single.probe_depths - depths[place]).max() < 1e-12
+
+
+def test_blocks_shrink_with_probes_and_waves_and_a_new_sea_cuts_the_fleet_anew():
+    assert block_size(4, 0) == MOST_BOATS
+    assert block_size(16, 64) < block_size(4, 64) < block_size(4, 4) <= MOST_BOATS
+    assert block_size(10 ** 6, 1000) == 1
+    boat, starts = asymmetric_boat(), random_states((MOST_BOATS + 5,), 9)
+    rows = np.tile([0.01, 5.0, 0.0, 0.0], (64, 1))
+    changed, fresh = Simulation(boat, Sea(), starts), Simulation(boat, Sea(rows), starts)
+    changed.sea = Sea(rows)
+    for part in PARTS:
+        assert np.array_equal(getattr(changed.state, part), getattr(fresh.state, part))
+    changed.step()
+    fresh.step()
+    for part in PARTS:
+        assert np.array_equal(getattr(changed.state, part), getattr(fresh.state, part))
 
 
 def test_fleet_of_one_is_a_fleet():

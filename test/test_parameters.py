@@ -18,12 +18,11 @@ import math
 from pathlib import Path
 import re
 
-import numpy as np
-import pytest
-
 from boat_buoyancy.physics import load_scene, yaml_file
 from boat_buoyancy.physics.parameter_values import checked
 from boat_buoyancy.physics.parameters import check_names, PARAMETERS
+import numpy as np
+import pytest
 
 DEFAULT = Path(__file__).parents[1] / 'config' / 'default.yaml'
 KINDS = {'float': float, 'int': int, 'bool': bool, 'string': str, 'float_array': tuple,
@@ -68,10 +67,10 @@ def test_every_number_has_a_unit_and_says_what_raising_it_does(parameter):
 
 def test_every_scalar_number_has_a_range(parameter):
     if parameter.kind in ('float', 'int'):
-        low, high = parameter.range
+        low, high = parameter.limits
         assert math.isfinite(low) and math.isfinite(high) and low < high
     else:
-        assert parameter.range is None
+        assert parameter.limits is None
 
 
 def test_what_may_change_while_running_is_what_is_promised(parameter):
@@ -79,9 +78,9 @@ def test_what_may_change_while_running_is_what_is_promised(parameter):
 
 
 def test_one_beyond_either_end_of_the_range_is_refused(parameter):
-    if parameter.range is None:
+    if parameter.limits is None:
         return
-    low, high = parameter.range
+    low, high = parameter.limits
     kind = KINDS[parameter.kind]
     below = low if parameter.above is not None else (
         low - 1 if kind is int else np.nextafter(low, -math.inf))

@@ -29,7 +29,7 @@ TIMES = np.linspace(0.0, 10.0, 201)
 
 
 def heights(boat, start, times=TIMES):
-    """Return the heights (n,) m of a boat in still water."""
+    """Return the heights in m of a boat in still water, one for every time."""
     return solve(boat, STILL, start, times[-1]).at(times).position[:, 2]
 
 

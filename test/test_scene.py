@@ -16,14 +16,13 @@
 
 import math
 
-from hypothesis import example, given, HealthCheck, settings, strategies as st
-import numpy as np
-import pytest
-
 from boat_buoyancy.physics import load_scene, Scene, State
 from boat_buoyancy.physics.boat import body_frame
 from boat_buoyancy.physics.parameters import PARAMETERS
 from boat_buoyancy.physics.scene import scene_from_values
+from hypothesis import example, given, HealthCheck, settings, strategies as st
+import numpy as np
+import pytest
 
 SQUARE = [[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]]
 TILTED = (0.2, -0.1, 0.7)
@@ -118,7 +117,7 @@ def test_an_error_in_a_file_names_the_file(tmp_path):
 @pytest.mark.parametrize('text, reason', [
     (None, 'cannot be read: No such file or directory; expected a parameter file'),
     ('/**:\n  ros__parameters:\n    boat: [1.0\n', 'expected YAML, got an error: '),
-    ('/**:\n  ros__parameters:\n    rate: "100.0"\n', "rate: expected a finite number"),
+    ('/**:\n  ros__parameters:\n    rate: "100.0"\n', 'rate: expected a finite number'),
     ('/**:\n  ros__parameters:\n    hull.size: [4, 2.0, 1.0]\n', 'expected values of one type'),
     ('/**:\n  ros__parameters:\n    hull.size: []\n', 'hull.size: expected 3 numbers, got 0'),
     ('/**:\n  ros__parameters:\n    probes.positions: []\n', 'at least one probe, got 0'),

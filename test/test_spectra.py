@@ -14,11 +14,10 @@
 
 """Irregular seas: heights, periods and phases against the definitions they come from."""
 
+from boat_buoyancy.physics import Sea, spectra
 import numpy as np
 import pytest
 from scipy import integrate, signal
-
-from boat_buoyancy.physics import Sea, spectra
 
 
 def spectral_moment(order):

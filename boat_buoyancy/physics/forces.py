@@ -34,8 +34,6 @@ from .rotation import free_rotation
 # Damping ramps in over this part of a probe's height: a jump at entry would leave every step
 # method at first order.
 RAMP = 0.1
-# As an array: NumPy takes half as long over it as over a Python number.
-RAMP_END = np.array([RAMP])
 STILL = (0.0, 0.0, 0.0)
 
 
@@ -145,13 +143,13 @@ def probe_damping(backend, arrays, ramp):
     return submersion, c, (sx, sy, sz), angular
 
 
-def mixed(pairs, submersion):
+def mixed(damping, submersion):
     """
     Return nine components of damping, force block and torque block, at a wetness 0 to 1.
 
-    ``pairs`` as `System.body_damping`: retention and linear drag mix between air and water.
+    ``damping`` as `System.body_damping`: retention and linear drag mix between air and water.
     """
-    (a, aw), (b, bw), (c, cw), (d, dw), (e, ew), (f, fw), (g, gw), (h, hw), (i, iw) = pairs
+    (a, b, c, d, e, f, g, h, i), (aw, bw, cw, dw, ew, fw, gw, hw, iw) = damping
     return (a + submersion * aw, b + submersion * bw, c + submersion * cw,
             d + submersion * dw, e + submersion * ew, f + submersion * fw,
             g + submersion * gw, h + submersion * hw, i + submersion * iw)
@@ -183,8 +181,8 @@ class System:
     A boat made ready for stepping: its constants in the form the hot path uses.
 
     ``rotate`` is the function of `free_rotation`;
-    ``body_damping`` (9), force block and torque block, are pairs of damping in air and what water
-    adds, ``retention`` its part without linear drag; ``quadratic`` (6) or None.
+    ``body_damping`` (9), force block and torque block, are damping in air and what water adds,
+    ``retention`` its part without linear drag; ``quadratic`` (6) or None.
     """
 
     backend: Backend
@@ -208,16 +206,16 @@ class System:
         force_block = ((0, 0), (1, 1), (2, 2))
         torque_block = ((3, 3), (4, 4), (5, 5), (3, 4), (3, 5), (4, 5))
 
-        def pairs(matrix):
-            return tuple((float(air[i]), float(matrix[i] - air[i]))
-                         for i in force_block + torque_block)
+        def air_and_more(matrix):
+            return tuple(tuple(float(values[i]) for i in force_block + torque_block)
+                         for values in (air, matrix - air))
 
         quadratic = tuple(boat.damping.quadratic.tolist())
         return cls(
             backend=backend, arrays=ProbeArrays.of(boat), law=laws.LAWS[boat.hull.law],
             rotate=free_rotation(boat), mass=boat.mass, weight=boat.weight,
             inertia=tuple(float(boat.mass_matrix[i]) for i in torque_block),
-            body_damping=pairs(with_linear), retention=pairs(water),
+            body_damping=air_and_more(with_linear), retention=air_and_more(water),
             quadratic=quadratic if any(quadratic) else None, boat=boat)
 
 
@@ -239,7 +237,7 @@ def evaluate(system, sea, position, orientation, time):
         surface = sea.surface(points, time)
         depth = surface[0] - points[2]
     wetting = system.law.wetting(backend, arrays.inverse_height, depth, up[2])
-    ramp = np.minimum(wetting.fraction, RAMP_END)
+    ramp = np.minimum(wetting.fraction, RAMP)
 
     lift, moment = buoyancy(system, wetting, up[2])
     net = lift - system.weight

@@ -18,18 +18,8 @@ Changes of velocity at a fixed place: accelerations, and Crank-Nicolson for damp
 Velocities are pairs (velocity, angular_velocity) of three components each in body axes.
 """
 
-from typing import NamedTuple
-
 from .forces import DampingMatrix
 from .linear import factor_ldl_3, solve_ldl_3
-
-
-class Factors(NamedTuple):
-    """The factored matrix M + dt/2 C of one kick; see `factor`."""
-
-    inverse_linear: tuple
-    lever: tuple
-    angular: tuple
 
 
 def with_drag(system, load, velocity, angular_velocity):
@@ -68,7 +58,7 @@ def net_wrench(damping, force, torque, thrust, velocity, angular_velocity):
 
 def factor(system, damping, half_step):
     """
-    Return the factors of M + half_step C, for `solve`.
+    Return the factors of M + half_step C, for `solve`: inverse force block, lever, torque block.
 
     The force block is diagonal and is eliminated first; what is left for the rotation is a
     symmetric positive definite 3 x 3 matrix (its Schur complement).
@@ -79,13 +69,13 @@ def factor(system, damping, half_step):
     ix, iy, iz = (1.0 / (mass + half_step * ax), 1.0 / (mass + half_step * ay),
                   1.0 / (mass + half_step * az))
     x, y, z = half_step * sx, half_step * sy, half_step * sz
-    return Factors((ix, iy, iz), (x, y, z), factor_ldl_3(
+    return (ix, iy, iz), (x, y, z), factor_ldl_3(
         ixx + half_step * xx - z * z * iy - y * y * iz,
         iyy + half_step * yy - z * z * ix - x * x * iz,
         izz + half_step * zz - y * y * ix - x * x * iy,
         ixy + half_step * xy + x * y * iz,
         ixz + half_step * xz + x * z * iy,
-        iyz + half_step * yz + y * z * ix))
+        iyz + half_step * yz + y * z * ix)
 
 
 def solve(factors, force, torque):

@@ -56,7 +56,7 @@ class Parameter:
     read_only: bool = False
 
     @property
-    def range(self):
+    def limits(self):
         """Return (lowest, highest) of a number, as a ROS range has it, or None."""
         if self.at_most is None or self.kind not in ('float', 'int'):
             return None
@@ -185,8 +185,8 @@ def _table():
                   'Waves that make up a JONSWAP sea. More is more natural and costs more.',
                   at_least=1, at_most=MAX_COMPONENTS),
         Parameter('sea.seed', 'int', 1, '-',
-                  'Chooses the phases of a JONSWAP sea: same seed, same sea everywhere. Another is '
-                  'another sea of the same kind.',
+                  'Chooses the phases of a JONSWAP sea: same seed, same sea everywhere. Another '
+                  'is another sea of the same kind.',
                   at_least=0, at_most=2 ** 63 - 1),
         Parameter('sea.depth', 'float', 0.0, 'm',
                   'Depth of the water; 0 = deep. Shallower makes long waves shorter and slower.',
@@ -199,7 +199,8 @@ def _table():
                   at_least=0.0, at_most=1e6),
         Parameter('start.position', 'float_array', (0.0, 0.0), 'm',
                   'Where the body frame starts in the world: x, y (floats at its draft) or '
-                  'x, y, z. A higher z drops it from there.', at_least=-1e9, at_most=1e9, lengths=(2, 3), **fixed),
+                  'x, y, z. A higher z drops it from there.', at_least=-1e9, at_most=1e9,
+                  lengths=(2, 3), **fixed),
         Parameter('start.orientation', 'float_array', (0.0, 0.0, 0.0), 'rad',
                   'Roll, pitch, yaw at the start. Higher roll lowers starboard, higher pitch the '
                   'bow, higher yaw turns left.', at_least=-1e3, at_most=1e3,

@@ -58,8 +58,8 @@ def _rotate_principal(backend, orientation, angular_velocity, h, *, moments, ord
     """
     Rotate a body whose principal axes are its body axes, taken in ``order``.
 
-    ``moments`` are in that order and ``back`` undoes it; ``sign`` is -1 for an order of odd parity, where turning the
-    third axis round makes the three right-handed again.
+    ``moments`` are in that order and ``back`` undoes it; ``sign`` is -1 for an order of odd
+    parity, where turning the third axis round makes the three right-handed again.
     """
     i, j, k = order
     first, second, third = moments

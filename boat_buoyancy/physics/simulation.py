@@ -16,16 +16,11 @@
 
 import numpy as np
 
-from . import checks, integrators
+from . import blocks, checks, integrators
 from .backend import FLEET, ONE_BOAT
-from .boat import State
 from .forces import System
 from .guard import Guard
-from .quaternion import normalise, rotation_matrix, to_body, to_world
 
-# Boats stepped together: enough to hide the cost of a NumPy call, few enough that what a step
-# writes stays in the cache (measured by `buoyancy_chart --speed`).
-BLOCK = 4000
 NO_THRUST = (0.0,) * 6
 
 
@@ -53,11 +48,11 @@ class Simulation:
         self._substeps = checks.count('substeps', substeps, at_least=1)
         self._method = integrators.METHODS[integrator]
         self.warnings = tuple(warnings)
-        self._boat, self._sea = boat, sea
         self._batch = state.batch_shape
         self._backend = FLEET if self._batch else ONE_BOAT
-        self._start = state
-        self.reset()
+        self._start, self._steps = state, 0
+        self._block = _block_of(boat, sea, 0.0)
+        self._prepare(self._to_motions(state), boat, sea)
 
     @property
     def rate(self):
@@ -91,8 +86,7 @@ class Simulation:
 
     @boat.setter
     def boat(self, boat):
-        self._boat = boat
-        self._prepare(self._motions)
+        self._prepare(self._motions, boat, self._sea)
 
     @property
     def sea(self):
@@ -101,20 +95,16 @@ class Simulation:
 
     @sea.setter
     def sea(self, sea):
-        self._sea = sea
-        self._prepare(self._motions)
+        self._prepare(self._motions, self._boat, sea)
 
     @property
     def state(self):
         """Return the `State` after the last step; set it to put the boat somewhere else."""
-        return self._from_motions(self._motions)
+        return blocks.to_state(self._backend, self._motions, self._batch)
 
     @state.setter
     def state(self, state):
-        if state.batch_shape != self._batch:
-            raise ValueError(f'state: expected batch shape {self._batch}, '
-                             f'got {state.batch_shape}')
-        self._prepare(self._to_motions(state))
+        self._prepare(self._to_motions(state), self._boat, self._sea)
 
     @property
     def probe_depths(self):
@@ -139,7 +129,7 @@ class Simulation:
         motions = self._to_motions(self._start if state is None else state)
         self._start = self._start if state is None else state
         self._steps = 0
-        self._prepare(motions)
+        self._prepare(motions, self._boat, self._sea)
 
     @np.errstate(all='ignore')
     def step(self, thrust=None):
@@ -152,7 +142,7 @@ class Simulation:
         Neither changes anything.
         """
         wrench = NO_THRUST if thrust is None else self._wrench(thrust)
-        parts = (wrench,) if len(self._motions) == 1 else self._split(wrench)
+        parts = (wrench,) if len(self._motions) == 1 else blocks.of_blocks(wrench, self._block)
         advance, system, sea = self._method.step, self._system, self._sea
         step_rate = self._rate * self._substeps
         h, first = 1.0 / step_rate, self._steps * self._substeps
@@ -171,15 +161,20 @@ class Simulation:
         self._motions, self._memories = motions, memories
         self._steps += 1
 
-    def _prepare(self, motions):
-        """Compute the loads of the motions as they stand."""
-        system = System.of(self._boat, self._backend)
+    def _prepare(self, motions, boat, sea):
+        """Take boat and sea and compute the loads of the motions; on an error change nothing."""
+        system = System.of(boat, self._backend)
+        block = _block_of(boat, sea, self.time)
+        if self._batch and block != self._block:
+            motions = blocks.recut(motions, block)
         h = 1.0 / (self._rate * self._substeps)
-        memories = [self._method.begin(system, self._sea, motion.position, motion.orientation,
+        memories = [self._method.begin(system, sea, motion.position, motion.orientation,
                                        self.time, h)
                     for motion in motions]
-        self._guard = Guard(self._boat, self._sea, self._from_motions(motions), 1.0 / self._rate)
-        self._system, self._motions, self._memories = system, motions, memories
+        state = blocks.to_state(self._backend, motions, self._batch)
+        self._guard = Guard(boat, sea, state, 1.0 / self._rate)
+        self._boat, self._sea, self._system, self._block = boat, sea, system, block
+        self._motions, self._memories = motions, memories
 
     def _wrench(self, thrust):
         """Return the thrust about the centre of mass, six components."""
@@ -200,12 +195,6 @@ class Simulation:
         x, y, z = self._boat.center_of_mass.tolist()
         return fx, fy, fz, tx - (y * fz - z * fy), ty - (z * fx - x * fz), tz - (x * fy - y * fx)
 
-    def _split(self, wrench):
-        """Return the wrench for each block of boats."""
-        for start in range(0, len(self._motions) * BLOCK, BLOCK):
-            yield tuple(c[start:start + BLOCK] if isinstance(c, np.ndarray) else c
-                        for c in wrench)
-
     def _left(self, thrust, motions=None):
         """Return the error for a step that left what physics allows; nothing has changed yet."""
         boat = self._guard.fastest(motions) if self._batch and motions else 0
@@ -222,34 +211,17 @@ class Simulation:
             f'{before}; thrust: {given}; take more substeps or integrator: implicit, then reset')
 
     def _to_motions(self, state):
+        if state.batch_shape != self._batch:
+            raise ValueError(f'state: expected batch shape {self._batch}, '
+                             f'got {state.batch_shape}')
         arrays = (state.position, state.orientation, state.velocity, state.angular_velocity)
         if not all(np.isfinite(values).all() for values in arrays):
             raise ValueError(f'state: expected finite numbers, got {state}')
         if not (np.abs((state.orientation ** 2).sum(axis=-1) - 1.0) < 1e-3).all():
             raise ValueError('state.orientation: expected unit quaternions, '
                              f'got {state.orientation.tolist()}')
-        if not self._batch:
-            return [self._motion([tuple(values.tolist()) for values in arrays])]
-        columns = [np.ascontiguousarray(values.reshape(-1, values.shape[-1]).T)
-                   for values in arrays]
-        return [self._motion([tuple(values[:, i:i + BLOCK]) for values in columns])
-                for i in range(0, columns[0].shape[1], BLOCK)]
+        return blocks.from_state(self._backend, state, self._block)
 
-    def _motion(self, parts):
-        position, orientation, velocity, angular_velocity = parts
-        orientation = normalise(self._backend, orientation)
-        return integrators.Motion(
-            position, orientation, to_body(rotation_matrix(orientation), velocity),
-            angular_velocity)
 
-    def _from_motions(self, motions):
-        def stacked(parts):
-            columns = np.concatenate([self._backend.column(part) for part in parts], axis=1)
-            return columns.T.reshape(*self._batch, -1)
-
-        return State(
-            stacked([motion.position for motion in motions]),
-            stacked([motion.orientation for motion in motions]),
-            stacked([to_world(rotation_matrix(motion.orientation), motion.velocity)
-                     for motion in motions]),
-            stacked([motion.angular_velocity for motion in motions]))
+def _block_of(boat, sea, time):
+    return blocks.block_size(len(boat.hull.share), len(sea.at(time).waves))

@@ -178,7 +178,8 @@ class Sea:
         # What depends on time alone is added once, not once a probe.
         angle += phase - angular_frequency * time
         np.cos(angle, angle)
-        return response.dot(angle).reshape((4,) + points.shape[1:])
+        _, count, boats = points.shape
+        return response.dot(angle).reshape(4, count, boats)
 
 
 def checked_waves(rows):

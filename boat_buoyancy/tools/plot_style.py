@@ -43,6 +43,15 @@ def figure(width, height, rows, columns, **options):
         return made, made.subplots(rows, columns, squeeze=False, **options)
 
 
+def title_and_legend(made, title, axes):
+    """Write a title over all panels, and under it the legend of ``axes`` in one line."""
+    # The empty lines keep the room that the legend takes, in every version's layout.
+    made.suptitle(f'{title}\n \n ', fontsize=11, linespacing=0.9)
+    handles, labels = axes.get_legend_handles_labels()
+    made.legend(handles, labels, ncols=len(labels), loc='upper center',
+                bbox_to_anchor=(0.5, 1.0 - 0.26 / made.get_figheight()))
+
+
 def save(made, path):
     """Write a figure as PNG, without a date so that equal data give equal files."""
     with matplotlib.rc_context(SETTINGS):

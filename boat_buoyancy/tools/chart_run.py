@@ -1,0 +1,93 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Doing all the work of the chart: errors on two processes, then times on a quiet one."""
+
+from dataclasses import replace
+import multiprocessing
+import os
+from pathlib import Path
+
+from . import chart_plots, chart_summary, chart_table, front, hull_accuracy, time_stepping
+
+PROCESSES = 2
+NAME = 'speed_accuracy'
+
+
+def write_chart(out, scenes, quick, progress):
+    """
+    Measure, write and draw the chart, and return its summary as lines.
+
+    Main arguments: ``out`` a folder; ``scenes`` parameter files for part three, none for the
+    built-in one; ``quick`` takes coarser steps and shorter runs; ``progress`` a function of one
+    text.
+    """
+    sources = ({Path(path).stem: path for path in scenes}
+               or {front.DEFAULT_NAME: front.DEFAULT_SCENE})
+    # Read first: a bad scene is to be told at once.
+    items = {name: front.scene_items(source) for name, source in sources.items()}
+    out = Path(out)
+    out.mkdir(parents=True, exist_ok=True)
+    rows, found = measure_errors(items, quick, progress)
+    rows = add_times(rows, found, items, quick, progress)
+    chart_table.write(out / f'{NAME}.csv', rows)
+    progress('drawing')
+    chart_plots.draw_time_stepping(rows, out / f'{NAME}.png')
+    chart_plots.draw_model(rows, out / f'{NAME}_model.png')
+    for number, name in enumerate(items):
+        suffix = f'_{name}' if scenes else ''
+        chart_plots.draw_front(rows, name, out / f'{NAME}_front{suffix}.png')
+    summary = list(chart_summary.lines(rows))
+    (out / f'{NAME}.txt').write_text('\n'.join(summary) + '\n', encoding='utf-8')
+    return summary
+
+
+def measure_errors(items, quick, progress):
+    """
+    Return the rows of parts one and two, and {scene: settings found} of part three.
+
+    ``items`` {scene: parameters as pairs}.  No times yet: two processes disturb each other.
+    """
+    work = ([(front.measured, task) for name, pairs in items.items()
+             for task in front.tasks(name, pairs, quick)]
+            + [(time_stepping.measured, task) for task in time_stepping.tasks(quick)]
+            + [(hull_accuracy.measured, task) for task in hull_accuracy.tasks(quick)])
+    rows, found = [], {name: [] for name in items}
+    # Started afresh, not forked: the linear algebra under NumPy may have threads of its own.
+    context = multiprocessing.get_context('spawn')
+    with context.Pool(min(PROCESSES, os.cpu_count() or 1)) as pool:
+        for number, (task, part) in enumerate(pool.imap(_do, work, chunksize=1)):
+            progress(f'errors: {number + 1} of {len(work)}')
+            if work[number][0] is front.measured:
+                found[task[0]] += part
+            else:
+                rows += part
+    return rows, found
+
+
+def _do(job):
+    function, task = job
+    return task, function(task)
+
+
+def add_times(rows, found, items, quick, progress):
+    """Return all rows, with the CPU time of each."""
+    progress('times: steps of the scenes')
+    seconds = time_stepping.step_costs(quick)
+    rows = [row if row.rate is None or row.part != time_stepping.PART
+            else replace(row, cpu=row.rate * seconds[row.scene, row.method]) for row in rows]
+    for name, settings in found.items():
+        progress(f'times: settings of {name}')
+        rows += front.rows(name, items[name], settings, quick)
+    return rows

@@ -1,0 +1,92 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the chart's table says, in a few lines."""
+
+import math
+
+from . import front, hull_accuracy, time_stepping
+from .chart_scenes import SCENES, SWELL
+
+# Errors in % below this are round-off.
+EXACT = 1e-6
+
+
+def lines(rows):
+    """Return the summary of a whole table as lines."""
+    return [*_stepping(rows), *_model(rows), *_fronts(rows)]
+
+
+def fronts(rows):
+    """Return {scene: its rows on the front, cheapest first} of part three."""
+    found = {}
+    for row in rows:
+        if row.part == front.PART:
+            found.setdefault(row.scene, []).extend([row] if row.front else [])
+    return {name: sorted(best, key=lambda row: row.cpu) for name, best in found.items()}
+
+
+def _stepping(rows):
+    own = [row for row in rows if row.method == 'reference']
+    if not own:
+        return []
+    worst = max(own, key=lambda row: row.error)
+    yield ('Time stepping: force evaluations per simulated second to an accuracy '
+           '(CPU time per simulated second)')
+    for scene in (*SCENES, SWELL):
+        cpu = dict(time_stepping.ranking(rows, scene.name, scene.tolerance, 'cpu'))
+        ranked = ', '.join(
+            f'{method} {cost:.0f} ({1e3 * cpu[method]:.2g} ms)' if math.isfinite(cost)
+            else f'{method} not at all' for method, cost in time_stepping.ranking(
+                rows, scene.name, scene.tolerance))
+        yield f'  {scene.name} to {1e3 * scene.tolerance:g} mm: {ranked}'
+    for name, finest in (time_stepping.SMOOTH, time_stepping.KINKED):
+        yield f'  observed order on {name}: ' + ', '.join(
+            f'{method} {order:.2f}'
+            for method, order in time_stepping.orders(rows, name, finest).items())
+    yield (f'  own error of the reference: at most {worst.error:.1g} m, rms '
+           f'({worst.scene})')
+
+
+def _model(rows):
+    rows = [row for row in rows if row.part == hull_accuracy.PART]
+    if not rows:
+        return
+    yield 'Model: error of probes against the hull itself'
+    least = min(row.probes for row in rows)
+    for law, placement in (('column', 'gauss'), ('column', 'midpoint'), ('column', 'corner'),
+                           ('spring', 'gauss'), ('spring', 'corner')):
+        found = next(row for row in rows if (row.scene, row.quantity, row.law, row.placement,
+                                             row.probes) == ('box', 'GM', law, placement, least))
+        yield (f'  GM of the barge, {least} probes, {law}, {placement}: '
+               + _percent(found, '+.3g'))
+    for shape in hull_accuracy.SHAPES:
+        found = [row for row in rows if (row.scene, row.quantity, row.law, row.placement)
+                 == (shape.name, hull_accuracy.GZ_SMALL, 'column', 'gauss')]
+        yield (f'  {hull_accuracy.GZ_SMALL} of the {shape.name}, columns at Gauss points: '
+               + ', '.join(f'{_percent(row)} ({row.probes})' for row in found))
+
+
+def _percent(row, form='.2g'):
+    return 'exact' if abs(row.percent) < EXACT else f'{row.percent:{form}} %'
+
+
+def _fronts(rows):
+    for name, best in fronts(rows).items():
+        yield f'Both at once: {name}, settings that nothing else beats'
+        for row in best:
+            probes = ('' if row.placement == 'as given' else
+                      ', hull.probes: [{}, {}]'.format(*row.placement.split('x')))
+            yield (f'  {row.error:.2g} m, {1e3 * row.cpu:.2g} ms: integrator: {row.method}, '
+                   f'rate: {float(row.rate)}, substeps: 1{probes}')

@@ -1,0 +1,192 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The advice of the chart: the setting it names holds on fresh runs, and a cheaper one fails."""
+
+from dataclasses import replace
+
+from boat_buoyancy.physics.hydrostatics import rest_state
+from boat_buoyancy.physics.scene import load_scene
+from boat_buoyancy.tools import advice, front, settings
+from boat_buoyancy.tools.settings import Setting, Trial
+from boat_buoyancy.tools.stretch import stretches
+import numpy as np
+import pytest
+import yaml
+
+# Four probes in an irregular sea; a box in regular waves shorter than twice its length; a box
+# that falls into still water.
+SCENES = {
+    'irregular': ({'probes.positions': [1.2, 0.8, -0.3, 1.2, -0.8, -0.3, -1.2, 0.8, -0.3,
+                                        -1.2, -0.8, -0.3],
+                   'boat.mass': 900.0, 'probes.floatiness': 2.5, 'probes.stiffness': 1.5,
+                   'sea.significant_height': 0.4, 'sea.peak_period': 3.0, 'sea.components': 8},
+                  0.01),
+    'regular': ({'sea.waves': [0.12, 2.2, 0.4, 0.0]}, 0.012),
+    'drop': ({'start.position': [0.0, 0.0, 1.5], 'start.orientation': [0.1, 0.05, 0.0]}, 0.02)}
+# Two apart, so that neighbours differ by more than one stretch of sea from another.
+RATES = tuple(2.0 ** power for power in range(11))
+COSTS = {'leapfrog': 30e-6, 'implicit': 55e-6, 'symplectic_euler': 40e-6, 'rk4': 110e-6}
+
+
+@pytest.fixture(autouse=True, scope='module')
+def solved_once():
+    """Solve the truth of every stretch once for all tests."""
+    known, solve = {}, Trial.of
+
+    def remembered(stretch):
+        key = repr(stretch), settings.HULL
+        if key not in known:
+            known[key] = solve(stretch)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Trial, 'of', staticmethod(remembered))
+        yield
+
+
+def known_costs(trial):
+    """Return step costs that do not depend on what else the machine does."""
+    return {(probes, method): cost * (1.0 + 0.005 * Setting(method, 1.0, probes).probe_count)
+            for probes in settings.choices(trial.stretch.given)
+            for method, cost in COSTS.items()}
+
+
+def advise(given, tolerance):
+    return advice.advise(given, tolerance, rates=RATES, step_costs=known_costs)
+
+
+def fresh_trials(given):
+    """Return trials that the advice has not seen: other seeds, times and starts."""
+    _, other = stretches(given)
+    if 'sea.significant_height' in given:
+        return [Trial.of(replace(other, given={**given, 'sea.seed': seed})) for seed in (11, 12)]
+    if 'sea.waves' in given:
+        return [Trial.of(replace(other, clock=clock)) for clock in (500.3, 1000.9)]
+    return [Trial.of(replace(other, scale=scale)) for scale in (0.95, 1.05)]
+
+
+@pytest.fixture(scope='module', params=SCENES)
+def case(request):
+    """Return parameters, tolerance, the advice and fresh trials of one scene."""
+    given, tolerance = SCENES[request.param]
+    given = load_scene(given).given
+    return given, tolerance, advise(given, tolerance), fresh_trials(given)
+
+
+def test_advised_setting_meets_the_tolerance_on_fresh_runs(case):
+    given, tolerance, found, trials = case
+    assert found.limit == ''
+    assert found.best.error <= tolerance
+    assert found.checked <= tolerance
+    for trial in trials:
+        assert trial.error(found.best.setting) <= tolerance
+
+
+def test_next_cheaper_setting_misses_the_tolerance_on_fresh_runs(case):
+    given, tolerance, found, trials = case
+    assert found.cheaper.cpu < found.best.cpu
+    assert found.cheaper.error > tolerance
+    for trial in trials:
+        assert trial.error(found.cheaper.setting) > tolerance
+
+
+def test_advised_lines_are_a_parameter_file_that_runs(case, tmp_path):
+    given, tolerance, found, trials = case
+    lines = found.best.setting.lines()
+    assert all(f'    {line}' in advice.report('scene.yaml', found, tolerance) for line in lines)
+    pasted = yaml.safe_load('\n'.join(lines))
+    kept = {name: list(value) if isinstance(value, tuple) else value
+            for name, value in given.items() if name not in pasted}
+    path = tmp_path / 'scene.yaml'
+    path.write_text(yaml.safe_dump({'/**': {'ros__parameters': {**kept, **pasted}}}))
+    simulation = load_scene(path).simulation()
+    setting = found.best.setting
+    assert (simulation.integrator, simulation.rate, simulation.substeps) == (
+        setting.integrator, setting.rate, 1)
+    simulation.step()
+
+
+def test_a_hull_of_too_few_probes_is_not_advised_however_small_the_step():
+    # Four probes under 4 m of boat in waves 7.5 m long: more of them is what it takes.
+    given, tolerance = SCENES['regular']
+    found = advise(load_scene(given).given, tolerance)
+    assert found.best.setting.probe_count > 4
+    trial = Trial.of(stretches(load_scene(given).given)[0])
+    assert trial.error(Setting('leapfrog', 200.0, (2, 2))) > tolerance
+
+
+def test_what_limits_is_said_when_nothing_meets_the_tolerance():
+    given = load_scene(SCENES['irregular'][0]).given
+    found = advice.advise(given, 1e-4, rates=RATES[:4], step_costs=known_costs)
+    assert found.limit.startswith('The time step limits it: 8 Hz is the finest tried')
+    lines = advice.report('scene.yaml', found, 1e-4)
+    assert lines[0] == 'scene.yaml: no setting meets 0.0001 m.'
+    assert 'integrator' in '\n'.join(lines)
+
+
+def test_a_tolerance_below_what_is_known_of_the_true_motion_is_refused():
+    given = load_scene(SCENES['regular'][0]).given
+    found = advise(given, 1e-9)
+    assert found.limit.startswith('The true motion limits it: the hull as 16 x 16 columns')
+    assert found.best is None
+    assert len(advice.report('scene.yaml', found, 1e-9)) == 2
+
+
+def test_probes_are_named_when_they_limit(monkeypatch):
+    monkeypatch.setattr(settings, 'PROBES', ((2, 2),))
+    found = advise(load_scene(SCENES['regular'][0]).given, 2e-3)
+    assert found.limit.startswith('The probes limit it: 2 x 2 of them miss the motion')
+
+
+def test_a_scene_in_which_nothing_moves_is_pushed():
+    first, second = stretches(load_scene({}).given)
+    assert first.push == -second.push / 0.9
+    run = first.run()
+    assert run.start.position[2] < rest_state(run.boat).position[2]
+    assert run.start.orientation[0] == pytest.approx(0.05, rel=0.01)
+
+
+def test_the_check_is_another_seed_another_stretch_or_another_start():
+    irregular, regular, drop = (stretches(load_scene(given).given)
+                                for given, _ in SCENES.values())
+    assert irregular[1].given['sea.seed'] == 2
+    assert regular[1].clock > regular[0].duration
+    start = [stretch.run().start.position[2] for stretch in drop]
+    rest = rest_state(drop[0].run().boat).position[2]
+    assert start[1] - rest == pytest.approx(0.9 * (start[0] - rest))
+
+
+def test_front_is_what_nothing_else_beats_and_can_be_typed_in():
+    given = {'start.position': [0.0, 0.0, 0.4]}
+    items = front.scene_items(given)
+    found = [(Setting('leapfrog', rate, (2, 2)), 1.0 / rate) for rate in front.QUICK_RATES]
+    found += [(Setting('rk4', rate, (2, 2)), 2.0 / rate) for rate in front.QUICK_RATES]
+    rows = front.rows('scene', items, found, True)
+    best = [row for row in rows if row.front]
+    assert {row.method for row in best} == {'leapfrog'}
+    for row in best:
+        cheaper = [other.error for other in rows if other.cpu < row.cpu and other.front]
+        assert all(error > row.error for error in cheaper)
+        load_scene({**given, 'integrator': row.method, 'rate': row.rate, 'substeps': 1,
+                    'hull.probes': [int(n) for n in row.placement.split('x')]}).simulation()
+
+
+def test_truth_of_a_hull_is_the_limit_of_ever_more_columns():
+    given = load_scene(SCENES['regular'][0]).given
+    trial = Trial.of(stretches(given)[0])
+    errors = [trial.error(Setting('rk4', 64.0, probes)) for probes in ((2, 2), (4, 4), (8, 8))]
+    assert errors[0] > 4 * errors[1] > 16 * errors[2]
+    assert trial.own_error < errors[2]
+    assert np.isfinite(errors).all()

@@ -1,0 +1,157 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The command line of the chart, its pictures and the speed it reports."""
+
+import csv
+
+from boat_buoyancy.tools import chart, chart_plots, hull_accuracy, speed, speed_plot, speed_report
+from boat_buoyancy.tools import time_stepping
+from boat_buoyancy.tools.chart_scenes import SCENES
+from boat_buoyancy.tools.chart_table import COLUMNS, Row
+from boat_buoyancy.tools.front import PART
+from boat_buoyancy.tools.speed import Case
+from PIL import Image
+import pytest
+import yaml
+
+
+def refusal(capsys, *arguments):
+    """Return the line on standard error of a run that is refused."""
+    try:
+        code = chart.main(list(arguments))
+    except SystemExit as end:
+        code = end.code
+    captured = capsys.readouterr()
+    assert code == 2
+    assert captured.out == ''
+    assert captured.err.count('\n') == 1
+    return captured.err
+
+
+@pytest.mark.parametrize('tolerance', ['0', '-0.01', 'nan', 'inf', 'fine', ''])
+def test_bad_tolerance_gets_one_line(tolerance, capsys, tmp_path):
+    scene = tmp_path / 'scene.yaml'
+    scene.write_text('/**:\n  ros__parameters:\n    rate: 50.0\n')
+    line = refusal(capsys, str(scene), f'--tolerance={tolerance}')
+    assert 'buoyancy_chart: --tolerance: expected a finite number above 0, got' in line
+
+
+def test_bad_scenes_and_options_get_one_line(capsys, tmp_path):
+    scene = tmp_path / 'scene.yaml'
+    scene.write_text('/**:\n  ros__parameters:\n    boat:\n      mass: -1.0\n')
+    assert 'boat.mass' in refusal(capsys, str(scene), '--tolerance', '0.01')
+    assert 'boat.mass' in refusal(capsys, str(scene), '--out', str(tmp_path))
+    assert 'no-such.yaml' in refusal(capsys, 'no-such.yaml', '--tolerance', '0.01')
+    assert 'expected a SCENE' in refusal(capsys, '--tolerance', '0.01')
+    assert 'expected one of them' in refusal(capsys, '--speed', '--stability')
+    assert 'expected no SCENE' in refusal(capsys, str(scene), '--speed')
+    assert '--colour' in refusal(capsys, '--colour')
+
+
+def test_command_prints_lines_to_paste_with_error_cost_and_speed(capsys, tmp_path):
+    scene = tmp_path / 'scene.yaml'
+    scene.write_text('/**:\n  ros__parameters:\n    probes:\n      positions: [0.0, 0.0, 0.0]\n')
+    assert chart.main([str(scene), '--tolerance', '0.02']) == 0
+    captured = capsys.readouterr()
+    printed = captured.out
+    assert 'the cheapest setting that meets 0.02 m' in printed
+    pasted = yaml.safe_load('\n'.join(line for line in printed.splitlines()
+                                      if line.startswith('    ')))
+    assert set(pasted) == {'integrator', 'rate', 'substeps'}
+    for words in ('Error', 'force evaluations', 'ms of CPU time', 'times real time',
+                  'Next cheaper', 'As the scene stands'):
+        assert words in printed
+    assert 'trying' in captured.err
+
+
+@pytest.mark.long
+def test_quick_chart_writes_table_pictures_and_summary(capsys, tmp_path):
+    assert chart.main(['--quick', '--out', str(tmp_path)]) == 0
+    captured = capsys.readouterr()
+    assert 'errors: 1 of' in captured.err
+    with open(tmp_path / 'speed_accuracy.csv', encoding='utf-8') as file:
+        rows = list(csv.DictReader(file))
+    assert tuple(rows[0]) == COLUMNS
+    assert {row['part'] for row in rows} == {'time stepping', 'model', 'both'}
+    assert (tmp_path / 'speed_accuracy.txt').read_text() == captured.out
+    for name in ('speed_accuracy', 'speed_accuracy_model', 'speed_accuracy_front'):
+        assert Image.open(tmp_path / f'{name}.png').width == 1350
+
+
+def test_pictures_are_as_wide_as_the_readme_and_equal_for_equal_data(tmp_path):
+    steps = [Row(time_stepping.PART, scene.name, method, float(rate), evaluations=float(rate),
+                 cpu=1e-5 * rate, error=1.0 / rate) for scene in SCENES
+             for method in time_stepping.METHOD_NAMES for rate in (10, 100, 1000)]
+    hulls = [row for task in hull_accuracy.tasks(True) if task[0] == 'still'
+             for row in hull_accuracy.measured((*task[:2], (2, 3)))]
+    fronts = [Row(PART, 'scene', 'leapfrog', 10.0, 4, '2x2', cpu=1e-4, error=0.1, front=1),
+              Row(PART, 'scene', 'rk4', 10.0, 4, '2x2', cpu=1e-3, error=0.01, front=1)]
+    chart_plots.draw_time_stepping(steps, tmp_path / 'steps.png')
+    chart_plots.draw_model(hulls, tmp_path / 'model.png')
+    chart_plots.draw_front(fronts, 'scene', tmp_path / 'front.png')
+    chart_plots.draw_front(fronts, 'scene', tmp_path / 'again.png')
+    for name in ('steps.png', 'model.png', 'front.png'):
+        assert Image.open(tmp_path / name).width == 1350
+    assert (tmp_path / 'front.png').read_bytes() == (tmp_path / 'again.png').read_bytes()
+
+
+def made_up_times(quick=False):
+    """Return times in which a step costs 3 us and 0.05 us for every wave at every probe."""
+    best = {}
+    for case in speed.cases(quick):
+        work = case.probes * case.waves
+        best[case] = {'step': case.boats * (3e-6 + 5e-8 * work),
+                      'trigonometry': case.boats * 4e-8 * work, 'single': 1e-6,
+                      'double': 4e-6, 'small call': 5e-7}[case.kind]
+    return best
+
+
+def test_speed_is_told_per_boat_and_held_against_the_aims(tmp_path):
+    best = made_up_times()
+    assert speed_report.microseconds(best, Case('step', 1000, 4, 4)) == pytest.approx(3.8)
+    aims = {name: value for name, value, _ in speed_report.aims(best)}
+    assert aims['one boat, over a small NumPy call'] == pytest.approx(3.8 / 0.5)
+    assert aims['1000 boats, per boat over its trigonometry'] == pytest.approx(3.8 / 0.64)
+    text = speed_report.text(best)
+    assert '| 4 | 3.8 (0.64) | 3.8 (0.64) |' in text
+    assert '| one boat alone over one of 1000 | 1 | at least 25 | no |' in text
+    assert all(part == pytest.approx(1.0) for _, part in speed_report.slope(best))
+    speed_plot.draw(best, tmp_path / 'speed.png')
+    assert Image.open(tmp_path / 'speed.png').width == 1350
+
+
+def test_every_case_of_the_speed_can_be_measured():
+    cases = [case for case in speed.cases(True) if case.boats <= 10]
+    best = speed.measure(cases[::5] + cases[-3:], 1)
+    assert all(time > 0.0 for time in best.values())
+    assert speed.simulation(Case('step', 10, 8, 4)).state.position.shape == (10, 3)
+    assert speed.simulation(Case('step', 1, 16, 0)).sea.is_flat
+
+
+@pytest.mark.long
+def test_quick_speed_writes_text_table_and_picture(capfd, tmp_path):
+    assert chart.main(['--speed', '--quick', '--out', str(tmp_path)]) == 0
+    captured = capfd.readouterr()
+    assert (tmp_path / 'speed.md').read_text() + '\n' == captured.out
+    assert '## Ratios' in captured.out
+    assert 'round 3 of 3' in captured.err
+    with open(tmp_path / 'speed.csv', encoding='utf-8') as file:
+        rows = list(csv.DictReader(file))
+    assert all(float(row['microseconds_per_boat_step']) > 0.0 for row in rows)
+    assert Image.open(tmp_path / 'speed.png').width == 1350
+
+
+def test_single_precision_costs_a_ten_millionth_of_the_amplitude():
+    assert 1e-8 < speed.single_precision_error() < 2e-7
