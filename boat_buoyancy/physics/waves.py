@@ -24,6 +24,9 @@ from . import checks
 MAX_COMPONENTS = 1000
 MAX_AMPLITUDE = 1000.0
 MIN_PERIOD, MAX_PERIOD = 0.01, 1e6
+# From so many angles on, one tangent of each is cheaper than cosine and sine, in spite of the
+# calls that it takes to make them of it.
+MANY_ANGLES = 256
 WAVE_FORM = 'rows of [amplitude m, period s, direction rad, phase rad]'
 
 
@@ -147,24 +150,38 @@ class Sea:
                          np.sin(phase) @ speed], axis=-1)
 
     @cached_property
-    def _stacked(self):
-        """
-        Return what `surface` multiplies: wave vectors, frequencies, phases and responses.
-
-        Every component stands twice, as cos(theta) and as cos(theta - pi/2) = sin(theta), so
-        that one cosine and one matrix product give elevation and velocity together.
-        """
+    def _responses(self):
+        """Return (4, W) each: elevation and velocity per cosine and per sine of each wave."""
         amplitude, direction = self.waves[:, 0], self.waves[:, 2]
-        speed = amplitude * self.angular_frequency
-        along, zero = speed * self._horizontal_ratio, np.zeros(len(amplitude))
-        response = np.block([
-            [amplitude, zero],
-            [along * np.cos(direction), zero],
-            [along * np.sin(direction), zero],
-            [zero, speed]])
+        speed, zero = amplitude * self.angular_frequency, np.zeros(len(amplitude))
+        along = speed * self._horizontal_ratio
+        return (np.stack([amplitude, along * np.cos(direction), along * np.sin(direction), zero]),
+                np.stack([zero, zero, zero, speed]))
+
+    @cached_property
+    def _cosine_table(self):
+        """
+        Return wave vectors, frequencies, phases and responses for `surface` of a few points.
+
+        Every wave stands twice, as cos(theta) and as cos(theta - pi/2) = sin(theta), so that one
+        cosine and one matrix product give elevation and velocity together.
+        """
         phase = self.waves[:, 3]
         return (np.vstack([self.wave_vector] * 2), np.tile(self.angular_frequency, 2)[:, None],
-                np.concatenate([phase, phase - np.pi / 2])[:, None], response)
+                np.concatenate([phase, phase - np.pi / 2])[:, None],
+                np.concatenate(self._responses, axis=1))
+
+    @cached_property
+    def _tangent_table(self):
+        """
+        Return half of wave vectors, frequencies and phases, responses and offset for many points.
+
+        With t = tan(theta/2) and r = 1 / (1 + t^2), cos(theta) = 2 r - 1 and sin(theta) = 2 r t.
+        """
+        per_cosine, per_sine = self._responses
+        return (self.wave_vector / 2.0, self.angular_frequency[:, None] / 2.0,
+                self.waves[:, 3:] / 2.0, 2.0 * np.concatenate([per_cosine, per_sine], axis=1),
+                per_cosine.sum(axis=1, keepdims=True))
 
     def surface(self, points, time):
         """
@@ -173,13 +190,27 @@ class Sea:
         ``points`` (3, n, B) m, world axes; ``time`` s.  Returns (4, n, B): elevation m, then
         the velocity of `velocity` without the current.
         """
-        wave_vector, angular_frequency, phase, response = self._stacked
-        angle = wave_vector.dot(points[:2].reshape(2, -1))
-        # What depends on time alone is added once, not once a probe.
-        angle += phase - angular_frequency * time
-        np.cos(angle, angle)
         _, count, boats = points.shape
-        return response.dot(angle).reshape(4, count, boats)
+        places = points[:2].reshape(2, -1)
+        # What depends on time alone is added once, not once a probe.
+        if len(self.waves) * places.shape[1] < MANY_ANGLES:
+            wave_vector, angular_frequency, phase, response = self._cosine_table
+            angle = wave_vector.dot(places)
+            angle += phase - angular_frequency * time
+            np.cos(angle, angle)
+            return response.dot(angle).reshape(4, count, boats)
+        wave_vector, angular_frequency, phase, response, offset = self._tangent_table
+        waves = len(phase)
+        terms = np.empty((2 * waves, places.shape[1]))
+        reciprocal, tangent = terms[:waves], terms[waves:]
+        np.dot(wave_vector, places, out=tangent)
+        tangent += phase - angular_frequency * time
+        np.tan(tangent, tangent)
+        np.multiply(tangent, tangent, reciprocal)
+        reciprocal += 1.0
+        np.reciprocal(reciprocal, reciprocal)
+        tangent *= reciprocal
+        return (response.dot(terms) - offset).reshape(4, count, boats)
 
 
 def checked_waves(rows):

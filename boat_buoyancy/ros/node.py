@@ -1,0 +1,282 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The node: it wires topics, services and parameters to a `Session` and steps it.
+
+Everything happens in one thread, so callbacks act between two steps; `tick` runs at most one
+step and is called as often as there is something to do.
+"""
+
+import signal
+import sys
+import time
+
+from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
+import rclpy
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from std_msgs.msg import Float64MultiArray
+from std_srvs.srv import SetBool, Trigger
+
+from . import startup
+from .drive import ClockDrive, SteadyDrive
+from .inputs import (Duplicates, MAX_WAVE_BYTES, read_place, read_waves, read_wrench, Refused,
+                     unpack_waves)
+from .markers import Markers, PERIOD as MARKER_PERIOD
+from .messages import ClockOutput, Frame, Outputs, WavesOutput
+from .parameters import declare, given_values, LiveParameters
+from .reports import Reports
+from .session import Session
+from ..physics.parameters import NODE_NAME
+from ..physics.scene import scene_from_values
+
+BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+VOLATILE = QoSProfile(depth=10)
+LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+SEARCH_PERIOD = 0.25  # s between looks for who latches waves
+IDLE = 0.05  # s between looks at the signals and clocks when nothing is due
+
+
+class BoatNode(Node):
+    """A boat on its water, as a ROS 2 node."""
+
+    def __init__(self):
+        """Read the parameters and start; ValueError says what is wrong with them."""
+        super().__init__(NODE_NAME, allow_undeclared_parameters=True)
+        given = given_values(self._parameter_overrides)
+        scene = scene_from_values(given)
+        startup.check_time(scene.values, self.get_parameter('use_sim_time').value)
+        self._own_clock = scene.values['publish_clock']
+        self._sim_time = self.get_parameter('use_sim_time').value
+        wall = not self._own_clock and not self._sim_time
+        self.session = Session(scene)
+        declare(self, scene)
+        LiveParameters(self, given, scene, self._change)
+        self._paused = False
+        now = time.monotonic()
+        self._reports = Reports(self, self.session, now)
+        self._reports.loaded()
+        for sentence in startup.remarks(self, given, scene.values):
+            self.get_logger().warning(sentence)
+
+        self._outputs, self._waves_output = Outputs(self, scene), WavesOutput(self)
+        self._clock_output = ClockOutput(self) if self._own_clock else None
+        self._markers, self._duplicates = Markers(self, scene), Duplicates()
+        self._listen()
+
+        self._next_search = self._next_markers = now
+        self._drive = (
+            ClockDrive(scene.rate, lambda: self.get_clock().now().nanoseconds,
+                       self.get_logger().warning) if self._sim_time else
+            SteadyDrive(scene.rate, scene.values['time_factor'], skips=wall))
+        if wall:
+            self.session.rebase(self.get_clock().now().nanoseconds)
+        self._waves_output.publish(self.session.sea)
+        if not self._sim_time:
+            self._publish()
+
+    def _listen(self):
+        """Create the subscriptions and services."""
+        self.create_subscription(WrenchStamped, 'thrust', self._guarded('thrust', self._on_thrust),
+                                 BEST_EFFORT)
+        self._waves_topic = self._subscribe_to_waves('volatile', VOLATILE).topic_name
+        self._latched_waves = None
+        self.create_subscription(
+            PoseWithCovarianceStamped, 'initialpose',
+            self._guarded('initialpose', self._on_place), VOLATILE)
+        self.create_service(Trigger, '~/reset', self._on_reset)
+        self.create_service(SetBool, '~/set_paused', self._on_set_paused)
+        self.create_service(Trigger, '~/step', self._on_step)
+
+    def _subscribe_to_waves(self, name, qos, **options):
+        return self.create_subscription(
+            Float64MultiArray, 'wave_parameters',
+            self._guarded('wave_parameters', lambda message: self._on_waves(message, name)),
+            qos, raw=True, **options)
+
+    def _look_for_latched_waves(self):
+        """
+        Subscribe to latched waves as long as somebody latches them.
+
+        A volatile subscription misses what was latched before it came; a latched one, if it
+        were always there, would make every ordinary publisher warn that it is not heard.
+        """
+        latched = any(info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
+                      for info in self.get_publishers_info_by_topic(self._waves_topic))
+        if latched and self._latched_waves is None:
+            self._latched_waves = self._subscribe_to_waves(
+                'latched', LATCHED, event_callbacks=SubscriptionEventCallbacks(
+                    incompatible_qos=lambda _: None, use_default_callbacks=False))
+        elif not latched and self._latched_waves is not None:
+            self.destroy_subscription(self._latched_waves)
+            self._latched_waves = None
+
+    # What is done over and over.
+
+    def tick(self):
+        """Run at most one step and what is due beside it; return the s until the next look."""
+        now = time.monotonic()
+        self._look_around(now)
+        if self._paused or self.session.fault:
+            return IDLE
+        turn = self._drive.turn()
+        if turn.moved_to is not None:
+            self.session.rebase(turn.moved_to)
+            self._publish()
+        if turn.dropped:
+            self._reports.dropped(turn.dropped, self._drive.skips, now)
+            if self._drive.skips:
+                self.session.skip(turn.dropped)
+        if turn.due > 0:
+            self._step(now)
+        return min(self._drive.wait(), IDLE)
+
+    def _step(self, now):
+        """Step once and publish what came of it; return True when it went well."""
+        began = time.monotonic()
+        if not self.session.step(now):
+            self._reports.stopped()
+            return False
+        self._drive.ran()
+        self._publish()
+        self._reports.stepped(time.monotonic() - began)
+        return True
+
+    def _publish(self):
+        if self._clock_output:
+            self._clock_output.publish(self.session.stamp)
+        self._outputs.publish(self.session)
+
+    def _look_around(self, now):
+        """Do what goes by wall time: markers, reports, looking for who latches waves."""
+        if now >= self._next_markers:
+            self._next_markers = now + MARKER_PERIOD
+            if self._markers.wanted:
+                self._markers.publish(Frame(self.session))
+        if now >= self._next_search:
+            self._next_search = now + SEARCH_PERIOD
+            self._look_for_latched_waves()
+        halted = self._paused or self.session.fault
+        if self._reports.look(self._paused, now) and halted and self._clock_output:
+            # Who comes while time stands still has to learn the time, too.
+            self._clock_output.publish(self.session.stamp)
+
+    # What others ask for.
+
+    def _guarded(self, topic, act):
+        """Return a callback that refuses what is wrong instead of ending the node."""
+        def callback(message):
+            try:
+                act(message)
+            except Refused as refused:
+                self._reports.complaints.add(topic, refused, time.monotonic())
+            except Exception as error:  # whatever a message contains, the node stays
+                self._reports.complaints.add(
+                    topic, Refused('not understood', f'{topic}: {error!r}'), time.monotonic())
+        return callback
+
+    def _on_thrust(self, message):
+        wrench, in_world = read_wrench(message, self.session.scene)
+        self.session.thrust.hold(wrench, in_world, time.monotonic())
+
+    def _on_waves(self, raw, subscription):
+        # Of a message that is too long to be good, the length has to do.
+        content = raw if len(raw) <= MAX_WAVE_BYTES else len(raw)
+        if self._duplicates.is_copy(subscription, content, time.monotonic()):
+            return
+        if self.session.set_waves(read_waves(unpack_waves(raw))):
+            self._waves_output.publish(self.session.sea)
+            self.get_logger().info(f'waves: {len(self.session.sea.waves)} in force')
+
+    def _on_place(self, message):
+        x, y, yaw = read_place(message, self.session.scene)
+        self.session.place(x, y, yaw)
+        self.get_logger().info(f'boat put at x {x:.2f} y {y:.2f} m, floating at its draft')
+        self._show_paused()
+
+    def _show_paused(self):
+        """Show a paused boat where it was put; one that runs is shown with its next stamp."""
+        if self._paused:
+            self._publish()
+
+    def _change(self, scene, simulation):
+        before = self.session.sea
+        self.session.change(scene, simulation)
+        self._reports.warnings(simulation)
+        if self.session.sea is not before:
+            self._waves_output.publish(self.session.sea)
+
+    def _on_reset(self, _, response):
+        faulted = self.session.fault is not None
+        self.session.reset()
+        if faulted and not self._paused:
+            self.session.skip(self._drive.resume())
+        self._show_paused()
+        response.success, response.message = True, 'at the start; sea and time go on'
+        return response
+
+    def _on_set_paused(self, request, response):
+        if self._paused and not request.data and not self.session.fault:
+            self.session.skip(self._drive.resume())
+        self._paused = request.data
+        response.success, response.message = True, 'paused' if request.data else 'running'
+        return response
+
+    def _on_step(self, _, response):
+        if not self._paused:
+            response.success = False
+            response.message = 'expected a paused node: call ~/set_paused with data: true first'
+        elif self._step(time.monotonic()):
+            response.success = True
+            response.message = f'at {self.session.steps / self.session.simulation.rate:g} s'
+        else:
+            response.success, response.message = False, str(self.session.fault)
+        return response
+
+
+def main(arguments=None):
+    """Run the node until a signal and return its exit status."""
+    stop = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stop.append(1))
+    try:
+        startup.check_files(sys.argv if arguments is None else arguments)
+        with startup.quiet_stderr():
+            rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+        node = BoatNode()
+    except Exception as error:
+        rclpy.try_shutdown()
+        print(startup.one_line(error), file=sys.stderr)
+        return 2
+    executor = startup.executor()
+    executor.add_node(node)
+    try:
+        while not stop:
+            wait = node.tick()
+            try:
+                executor.spin_once(wait)
+            except Exception as error:  # a callback of rclpy's own, as for a malformed request
+                node.get_logger().error(f'a request was not understood: {error!r}')
+    finally:
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.try_shutdown()
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

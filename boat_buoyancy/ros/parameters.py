@@ -1,0 +1,187 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The parameters of the node: declared from the one table, checked as one scene, live.
+
+What rclpy would say of a wrong value is not what a user needs to read; here every value is
+judged by the table and the scene, and their sentence is the reason given.
+"""
+
+from array import array
+
+from rcl_interfaces.msg import (FloatingPointRange, IntegerRange, ParameterDescriptor,
+                                SetParametersResult)
+from rclpy.parameter import Parameter
+
+from ..physics import parameters, scene as scenes
+from ..physics.parameters import PARAMETERS
+from ..physics.yaml_file import ROS_OWN
+
+TYPES = {
+    'float': Parameter.Type.DOUBLE, 'int': Parameter.Type.INTEGER, 'bool': Parameter.Type.BOOL,
+    'string': Parameter.Type.STRING, 'float_array': Parameter.Type.DOUBLE_ARRAY,
+    'int_array': Parameter.Type.INTEGER_ARRAY}
+# A set that asks for one kind of waves replaces the others.
+KINDS_OF_WAVES = (('sea.waves',), ('sea.sea_state',),
+                  ('sea.significant_height', 'sea.peak_period'))
+
+
+def is_ros_own(name):
+    """Return True for a parameter that every node has, none of ours."""
+    return name.partition('.')[0] in ROS_OWN
+
+
+def plain(parameter):
+    """Return the value of an rclpy Parameter as number, text or list."""
+    if parameter.type_ is Parameter.Type.NOT_SET:
+        # `[]` in a file: rcl knows no type for it.
+        return []
+    return list(parameter.value) if isinstance(parameter.value, array) else parameter.value
+
+
+def given_values(overrides):
+    """
+    Return {name: value} of the parameters that files and command line gave the node.
+
+    ``overrides`` {name: rclpy Parameter}.  ValueError for a `use_sim_time` that is not a bool.
+    """
+    sim_time = overrides.get('use_sim_time')
+    if sim_time is not None and not isinstance(sim_time.value, bool):
+        raise ValueError(f'use_sim_time: expected true or false, got {sim_time.value!r}')
+    return {name: plain(parameter) for name, parameter in overrides.items()
+            if not is_ros_own(name)}
+
+
+def ros_parameter(name, value):
+    """Return an rclpy Parameter of the table's type."""
+    if isinstance(value, tuple):
+        value = list(value)
+    return Parameter(name, TYPES[PARAMETERS[name].kind], value)
+
+
+def descriptor(parameter):
+    """Return the ParameterDescriptor of a row of the table."""
+    unit = f' [{parameter.unit}]' if parameter.unit else ''
+    description = ParameterDescriptor(
+        name=parameter.name, type=TYPES[parameter.kind].value,
+        description=parameter.description + unit, read_only=parameter.read_only,
+        # Integers for doubles are taken as numbers; the table sees to the types.
+        dynamic_typing=True, additional_constraints=constraints(parameter))
+    if parameter.limits is not None:
+        lowest, highest = parameter.limits
+        if parameter.kind == 'float':
+            description.floating_point_range = [
+                FloatingPointRange(from_value=float(lowest), to_value=float(highest))]
+        else:
+            description.integer_range = [
+                IntegerRange(from_value=int(lowest), to_value=int(highest), step=1)]
+    return description
+
+
+def constraints(parameter):
+    """Return in words what a range cannot say."""
+    words = []
+    if parameter.choices:
+        words.append('one of ' + ', '.join(parameter.choices))
+    if parameter.lengths:
+        words.append(' or '.join(map(str, parameter.lengths)) + ' numbers')
+    if parameter.above is not None:
+        words.append(f'above {parameter.above:g}')
+    if parameter.kind.endswith('_array'):
+        if parameter.at_least is not None:
+            words.append(f'at least {parameter.at_least:g}')
+        if parameter.at_most is not None:
+            words.append(f'at most {parameter.at_most:g}')
+    return ', '.join(words)
+
+
+def declare(node, scene):
+    """Declare on a node every parameter that a scene has in force, with its value."""
+    node.declare_parameters('', [
+        (name, ros_parameter(name, value).value, descriptor(PARAMETERS[name]))
+        for name, value in scene.values.items()], ignore_override=True)
+
+
+class LiveParameters:
+    """
+    Parameters that change while the node runs: a set is judged as a whole, then applied.
+
+    Main arguments: ``node``; ``given`` {name: value}, what the user gave; ``scene`` made of it;
+    ``apply`` (scene, simulation), called between two steps.
+    """
+
+    def __init__(self, node, given, scene, apply):
+        """Take part in every set from now on."""
+        self._given, self._scene, self._apply = dict(given), scene, apply
+        self._proposal = self._refusal = None
+        node.add_pre_set_parameters_callback(self._propose)
+        node.add_on_set_parameters_callback(self._judge)
+        node.add_post_set_parameters_callback(self._take)
+
+    def _propose(self, requested):
+        """Work out the scene that a set asks for, and return everything that changes with it."""
+        self._proposal = self._refusal = None
+        try:
+            given = self._merged(requested)
+            scene = scenes.scene_from_values(given)
+            self._proposal = given, scene, scene.simulation()
+        except Exception as error:  # a raise here would be the end of the node
+            self._refusal = ' '.join(str(error).split()) or repr(error)
+            # rclpy looks at types and ranges first: give it nothing to add to our reason.
+            return [self._in_force(parameter) for parameter in requested]
+        names = {parameter.name for parameter in requested}
+        names |= {name for name, value in scene.values.items()
+                  if value != self._scene.values.get(name)}
+        return [ros_parameter(name, scene.values[name]) for name in sorted(names)]
+
+    def _merged(self, requested):
+        """Return what would be given after a set; ValueError for what can never be set."""
+        given, names = dict(self._given), [parameter.name for parameter in requested]
+        for name in names:
+            if is_ros_own(name):
+                raise ValueError(f'{name}: cannot change while the node runs')
+        parameters.check_names(names)
+        for parameter in requested:
+            if PARAMETERS[parameter.name].read_only:
+                raise ValueError(f'{parameter.name}: cannot change while the node runs; '
+                                 'start it again with the new value')
+            if parameter.type_ is Parameter.Type.NOT_SET:
+                # `ros2 param delete`: back to the default, or to what follows from others.
+                given.pop(parameter.name, None)
+            else:
+                given[parameter.name] = plain(parameter)
+        for kind in KINDS_OF_WAVES:
+            if any(given.get(name) for name in kind if name in names):
+                for other in KINDS_OF_WAVES:
+                    for name in other:
+                        if other is not kind and name not in names:
+                            given.pop(name, None)
+        return given
+
+    def _in_force(self, parameter):
+        value = self._scene.values.get(parameter.name)
+        return parameter if value is None else ros_parameter(parameter.name, value)
+
+    def _judge(self, _):
+        if self._refusal:
+            return SetParametersResult(successful=False, reason=self._refusal)
+        return SetParametersResult(successful=True)
+
+    def _take(self, _):
+        if self._proposal is None:
+            return
+        self._given, self._scene, simulation = self._proposal
+        self._proposal = None
+        self._apply(self._scene, simulation)

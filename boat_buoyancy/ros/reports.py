@@ -1,0 +1,133 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What the node says of itself: log, status line, /diagnostics once a second.
+
+It looks and speaks; it changes nothing.
+"""
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from . import figures
+from .inputs import Complaints
+from .messages import Frame, set_stamp
+
+DIAGNOSTICS_PERIOD = 1.0  # s
+
+
+class Reports:
+    """
+    The reports of a node.
+
+    Main arguments: ``node``; ``session``; ``now`` s on the steady clock.  Public: ``complaints``,
+    where refused messages are counted and said.
+    """
+
+    def __init__(self, node, session, now):
+        """Create the publisher and begin to count."""
+        self._node, self._session, self._log = node, session, node.get_logger()
+        self.complaints = Complaints(self._log.warning)
+        rate = session.simulation.rate
+        self._meter, self._status_meter = figures.Meter(rate, now), figures.Meter(rate, now)
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._status = DiagnosticStatus(
+            name=f'{node.get_name()}: motion', hardware_id=node.get_fully_qualified_name())
+        self._next_diagnostics = now + DIAGNOSTICS_PERIOD
+        self._status_period = session.scene.values['status_period']
+        self._next_status = now + self._status_period
+        self._twin_seen, self._drops_said, self._unsaid_drops = False, None, 0
+        self._said = set()
+
+    def loaded(self):
+        """Say what was loaded and what the boat will do, and what is wrong with it."""
+        simulation = self._session.simulation
+        self._log.info(figures.loaded(self._session.scene, simulation))
+        self.warnings(simulation)
+
+    def warnings(self, simulation):
+        """Say the warnings of a simulation that were not said before."""
+        for sentence in simulation.warnings:
+            if sentence not in self._said:
+                self._log.warning(sentence)
+        self._said = set(simulation.warnings)
+
+    def stepped(self, seconds):
+        """Count a step that took so long, with its publications."""
+        self._meter.step(seconds)
+        self._status_meter.step(seconds)
+
+    def stopped(self):
+        """Say that the motion has a fault."""
+        self._log.error(f'the motion was stopped: {self._session.fault}; call ~/reset to go on')
+
+    def dropped(self, steps, lost_to_boat, now):
+        """Count steps given up, and say so once in a while; see `drive` for who loses them."""
+        self._meter.drop(steps)
+        self._unsaid_drops += steps
+        if self._drops_said is not None and now - self._drops_said < Complaints.PERIOD:
+            return
+        seconds = self._unsaid_drops / self._session.simulation.rate
+        lost = ('the boat stood still in them, stamps and sea went on' if lost_to_boat
+                else 'simulated time went slower than asked')
+        self._log.warning(
+            f'fell behind: {self._unsaid_drops} steps ({seconds:.2f} s) dropped, {lost}. If it '
+            'goes on, lower rate or substeps, use fewer probes or waves, or a faster machine')
+        self._drops_said, self._unsaid_drops = now, 0
+
+    def look(self, paused, now):
+        """Publish diagnostics and say the status line when it is time; return True if it was."""
+        if self._status_period and now >= self._next_status:
+            self._next_status = max(now, self._next_status + self._status_period)
+            session, held = self._session, self._status_meter.look(now)
+            self._log.info(figures.status_line(
+                Frame(session), session.steps / session.simulation.rate, held.real_time_factor))
+        if now < self._next_diagnostics:
+            return False
+        self._next_diagnostics = max(now, self._next_diagnostics + DIAGNOSTICS_PERIOD)
+        self._diagnose(paused, now)
+        return True
+
+    def _diagnose(self, paused, now):
+        held = self._meter.look(now)
+        level, message = DiagnosticStatus.OK, 'paused' if paused else 'moving'
+        if self._has_twin():
+            level, message = DiagnosticStatus.WARN, 'another node has this name'
+        if held.dropped:
+            level, message = DiagnosticStatus.WARN, f'{held.dropped} steps dropped'
+        if self._session.fault:
+            level, message = DiagnosticStatus.ERROR, self._session.fault
+        values = figures.values(self._session, self._meter, held, self.complaints, now)
+        self._status.level, self._status.message = level, message
+        self._status.values = [KeyValue(key=key, value=value) for key, value in values.items()]
+        array = DiagnosticArray(status=[self._status])
+        # Where the node is the source of time, its own; its clock object knows only others'.
+        own = self._session.scene.values['publish_clock']
+        set_stamp(array.header.stamp,
+                  self._session.stamp if own else self._node.get_clock().now().nanoseconds)
+        self._publisher.publish(array)
+
+    def _has_twin(self):
+        """Return True while the graph shows a second node of this name; say it once."""
+        node = self._node
+        own = (node.get_name(), node.get_namespace())
+        twin = node.get_node_names_and_namespaces().count(own) > 1
+        if twin and not self._twin_seen:
+            self._log.warning(
+                f'another node is called {node.get_fully_qualified_name()}: both answer its '
+                'services and publish its topics. Give one a namespace with '
+                '--ros-args -r __ns:=/other (a node that was killed stays in the graph for '
+                'about 20 s)')
+        self._twin_seen = twin
+        return twin

@@ -1,0 +1,175 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+One boat as the node runs it, without ROS.
+
+`Session` holds together what a period needs: the simulation, the stamps of its steps, the sea in
+force at those stamps, the thrust that acts, and a fault if there was one.
+"""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from .inputs import ThrustLatch
+from .pacing import NANOSECONDS, Timeline
+from ..physics.hydrostatics import rest_state
+from ..physics.simulation import SimulationError
+from ..physics.transition import fade, SeaTransition
+from ..physics.waves import Sea
+
+WAVES = ('sea.waves', 'sea.sea_state', 'sea.significant_height', 'sea.peak_period',
+         'sea.direction', 'sea.components', 'sea.seed')
+
+
+class Session:
+    """
+    A scene under way.
+
+    Main arguments: ``scene`` a `Scene`; ``start`` ns, the stamp of step 0.
+    Public: ``scene``; ``simulation``; ``sea``, as given, its time 0 that of the stamps;
+    ``thrust`` a `ThrustLatch`; ``fault``, why the motion was stopped, or None.
+    """
+
+    def __init__(self, scene, start=0):
+        """Stand at the scene's start; ValueError when the scene cannot be stepped."""
+        self.scene, self.simulation = scene, scene.simulation()
+        self.thrust = ThrustLatch(scene.thrust_timeout)
+        self.fault = None
+        # A scene's centre of mass cannot change while it runs.
+        self._center_of_mass = tuple(scene.boat.center_of_mass.tolist())
+        self._timeline = Timeline(Fraction(scene.rate), start)
+        # Steps of simulations that were replaced by this one.
+        self._earlier = 0
+        self.sea, self._waiting = scene.sea, False
+        self.simulation.sea = self._clocked(self.sea)
+
+    @property
+    def steps(self):
+        """Return how many periods were stepped since the start."""
+        return self._earlier + self.simulation.steps
+
+    @property
+    def center_of_mass(self):
+        """Return the centre of mass in the body frame, three floats in m."""
+        return self._center_of_mass
+
+    @property
+    def stamp(self):
+        """Return the stamp of the present state in ns."""
+        return self._timeline.stamp(self.steps)
+
+    @property
+    def transition(self):
+        """Return the s over which a new sea replaces the old."""
+        return self.scene.values['sea.transition']
+
+    def step(self, now):
+        """
+        Advance one period; ``now`` s on the steady clock decides which thrust acts.
+
+        Returns False when the motion left what physics allows: the last good state stays,
+        `fault` says why, and nothing moves until `reset`.
+        """
+        if self.fault:
+            return False
+        simulation = self.simulation
+        if self._waiting:
+            self._turn_to(self._clocked(self.sea))
+        sea = simulation.sea
+        if isinstance(sea, SeaTransition) and sea.settled(simulation.time):
+            # Exactly the sea that was given, without what shifting it in time rounded off.
+            simulation.sea = self._clocked(self.sea) if not self._waiting else sea.new
+        try:
+            simulation.step(self.thrust.wrench(now, self._orientation))
+        except SimulationError as error:
+            self.fault = str(error)
+            return False
+        return True
+
+    def reset(self):
+        """Go back to the start with neither thrust nor fault; sea and time go on."""
+        self.simulation.state = self.scene.start
+        self.thrust.clear()
+        self.fault = None
+
+    def place(self, x, y, yaw):
+        """Put the boat at rest at x, y m, heading yaw rad, level and floating at its draft."""
+        self.simulation.state = rest_state(self.scene.boat, yaw=yaw, x=x, y=y)
+
+    def set_waves(self, rows):
+        """Go over to other waves, (W, 4); return False when they are those in force."""
+        if np.array_equal(rows, self.sea.waves):
+            return False
+        self.sea = replace(self.sea, waves=rows)
+        self._turn_to(self._clocked(self.sea))
+        return True
+
+    def change(self, scene, simulation):
+        """
+        Go on with another boat or sea: a `Scene` of the same probes, and a simulation of it.
+
+        What moves keeps moving.  Waves that came by message stay unless the scene's changed.
+        """
+        before, self.scene = self.scene, scene
+        self.thrust.timeout = scene.thrust_timeout
+        changed = {name for name, value in scene.values.items()
+                   if value != before.values.get(name)}
+        if any(name.startswith(('boat.', 'probes.', 'damping.')) for name in changed):
+            old, self.simulation = self.simulation, simulation
+            self._earlier += old.steps
+            simulation.reset(old.state)
+            simulation.sea = (old.sea.starting_at(old.time)
+                              if isinstance(old.sea, SeaTransition) else self._clocked(self.sea))
+        if changed.intersection(WAVES):
+            self.sea = scene.sea
+        else:
+            self.sea = Sea(self.sea.waves, scene.sea.current, scene.sea.depth, scene.sea.gravity)
+        if changed.intersection(WAVES) or changed & {'sea.current', 'sea.depth'}:
+            self._turn_to(self._clocked(self.sea))
+
+    def skip(self, periods):
+        """Let the time of the stamps go on by so many periods in which the boat did not move."""
+        if periods > 0:
+            self._move(self._timeline.skipped(periods))
+
+    def rebase(self, stamp):
+        """Let the stamps go on from ``stamp`` ns."""
+        self._move(self._timeline.rebased(stamp, self.steps))
+
+    def _move(self, timeline):
+        """Take other stamps; the water of the new time comes without a jump."""
+        self._timeline = timeline
+        if self.steps == 0:
+            self.simulation.sea = self._clocked(self.sea)
+        elif not self.sea.is_flat:
+            self._turn_to(self._clocked(self.sea))
+
+    def _turn_to(self, sea):
+        """Fade over to ``sea``, or note that it has to wait."""
+        faded = fade(self.simulation.sea, sea, self.simulation.time, self.transition)
+        self._waiting = faded is None
+        if faded is not None:
+            self.simulation.sea = faded
+
+    def _clocked(self, sea):
+        """Return a sea of stamp times as the simulation has to see it, which counts from 0."""
+        # Whole seconds first: they and their remainder are exact, 1.7e18 ns in a float is not.
+        seconds, nanoseconds = divmod(self._timeline.stamp(self._earlier), NANOSECONDS)
+        return sea.starting_at(float(seconds)).starting_at(nanoseconds / NANOSECONDS)
+
+    def _orientation(self):
+        return self.simulation.motion.orientation

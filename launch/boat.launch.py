@@ -1,0 +1,97 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Start one boat.
+
+    ros2 launch boat_buoyancy boat.launch.py scene:=barge namespace:=barge x:=5.0 rviz:=true
+
+`ros2 launch boat_buoyancy boat.launch.py --show-args` lists the arguments.
+"""
+
+import os
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+PACKAGE = 'boat_buoyancy'
+
+ARGUMENTS = {
+    'scene': ('default', 'A scene of this package (default, barge, ...) or the path of a '
+                         'parameter file.'),
+    'namespace': ('', 'Namespace of the boat: two boats need two.'),
+    'x': ('', 'Where the boat starts along world x, in m; with x or y it floats at its draft. '
+              "Empty: the scene's start."),
+    'y': ('', 'Where the boat starts along world y, in m.'),
+    'yaw': ('', "Heading at the start in rad, counter-clockwise from x; level. Empty: the scene's "
+                'start.'),
+    'publish_clock': ('', 'true: this boat is the source of /clock, from 0 on.'),
+    'time_factor': ('', 'Simulated over wall time, with publish_clock; 0.0 = as fast as it can.'),
+    'use_sim_time': ('', 'true: steps follow a /clock from elsewhere.'),
+    'rviz': ('false', 'true: show the boat in RViz.'),
+}
+
+
+def scene_file(name):
+    """Return the path of a scene: a file as it is, or a scene of this package by its name."""
+    if os.path.isfile(name):
+        return name
+    folder = os.path.join(get_package_share_directory(PACKAGE), 'config')
+    path = os.path.join(folder, name + '.yaml')
+    if not os.path.isfile(path):
+        shipped = sorted(file[:-5] for file in os.listdir(folder) if file.endswith('.yaml'))
+        raise RuntimeError(f'scene: expected the path of a parameter file or one of '
+                           f'{", ".join(shipped)}, got {name!r}')
+    return path
+
+
+def overrides(given):
+    """Return the parameters that arguments set; those left empty are the scene's."""
+    parameters = {name: given[name].lower() in ('true', '1')
+                  for name in ('publish_clock', 'use_sim_time') if given[name]}
+    if given['time_factor']:
+        parameters['time_factor'] = float(given['time_factor'])
+    if given['x'] or given['y']:
+        parameters['start.position'] = [float(given['x'] or 0.0), float(given['y'] or 0.0)]
+    if given['yaw']:
+        parameters['start.orientation'] = [0.0, 0.0, float(given['yaw'])]
+    return parameters
+
+
+def nodes(context):
+    """Return the boat, and RViz if it is asked for."""
+    given = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
+    parameters = overrides(given)
+    boat = Node(
+        package=PACKAGE, executable='buoyancy_node', namespace=given['namespace'],
+        output='screen', emulate_tty=True, parameters=[scene_file(given['scene']), parameters])
+    simulated = parameters.get('publish_clock') or parameters.get('use_sim_time') or False
+    rviz = Node(
+        package='rviz2', executable='rviz2', namespace=given['namespace'], output='screen',
+        arguments=['-d', os.path.join(
+            get_package_share_directory(PACKAGE), 'config', 'boat.rviz')],
+        parameters=[{'use_sim_time': simulated}], condition=IfCondition(given['rviz']))
+    return [boat, rviz]
+
+
+def generate_launch_description():
+    """Return the arguments and what they start."""
+    return LaunchDescription([
+        *(DeclareLaunchArgument(name, default_value=default, description=description)
+          for name, (default, description) in ARGUMENTS.items()),
+        OpaqueFunction(function=nodes)])

@@ -1,0 +1,281 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Measure what the node costs, and write doc/ros_speed.md.
+
+    python test/ros_speed.py [--seconds 10] [--out doc/ros_speed.md]
+
+CPU time is that of the node's process alone, from /proc; subscribers are in another process.
+"""
+
+import argparse
+import os
+from pathlib import Path
+import platform
+import random
+import subprocess
+import sys
+import time
+
+os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 101))
+
+from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
+from geometry_msgs.msg import TwistStamped, WrenchStamped  # noqa: E402
+import numpy as np  # noqa: E402
+
+from ros_probe import BEST_EFFORT, new_namespace, Probe, ROOT, wrench  # noqa: E402
+
+OUTPUTS = ('pose', 'twist', 'odom', 'probe_depth')
+RATES = (50.0, 100.0, 200.0, 500.0, 1000.0)
+HERE = Path(__file__).parent
+
+LISTENER = """
+import sys
+from ros_probe import Probe
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import PointCloud2
+from std_msgs.msg import Float64MultiArray
+from visualization_msgs.msg import MarkerArray
+kinds = {'pose': PoseStamped, 'twist': TwistStamped, 'odom': Odometry,
+         'probe_depth': Float64MultiArray, 'probes': PointCloud2, 'markers': MarkerArray}
+with Probe(sys.argv[1], 'listener') as one:
+    for topic in filter(None, sys.argv[2].split(',')):
+        one.node.create_subscription(kinds[topic], topic, lambda message: None, 10)
+    print('there', flush=True)
+    one.spin(1e6)
+"""
+
+# The node as it is, and the same steps driven in other ways.
+SHIPPED = 'from boat_buoyancy.ros.node import main; main()'
+SINGLE = """
+from boat_buoyancy.ros import node, startup
+startup.EventsExecutor = None
+node.main()
+"""
+THREAD = """
+import threading, time
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from boat_buoyancy.ros.node import BoatNode
+rclpy.init()
+boat = BoatNode()
+def run():
+    while True:
+        time.sleep(boat.tick())
+threading.Thread(target=run, daemon=True).start()
+executor = SingleThreadedExecutor()
+executor.add_node(boat)
+executor.spin()
+"""
+# What one writes first: a timer, one step per tick, new messages.
+PLAIN = """
+import rclpy
+from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
+from nav_msgs.msg import Odometry
+from rclpy.node import Node
+from std_msgs.msg import Float64MultiArray
+from boat_buoyancy.physics import load_scene
+from boat_buoyancy.physics.boat import body_frame
+rclpy.init()
+node = Node('boat_buoyancy')
+rate = node.declare_parameter('rate', 100.0).value
+simulation = load_scene({'rate': rate}).simulation()
+kinds = {'pose': PoseStamped, 'twist': TwistStamped, 'odom': Odometry,
+         'probe_depth': Float64MultiArray}
+out = {topic: node.create_publisher(kind, topic, 10) for topic, kind in kinds.items()}
+def fill_pose(pose, position, orientation):
+    pose.position.x, pose.position.y, pose.position.z = map(float, position)
+    (pose.orientation.x, pose.orientation.y, pose.orientation.z,
+     pose.orientation.w) = map(float, orientation)
+def fill_twist(twist, velocity, spin):
+    twist.linear.x, twist.linear.y, twist.linear.z = map(float, velocity)
+    twist.angular.x, twist.angular.y, twist.angular.z = map(float, spin)
+def tick():
+    simulation.step()
+    position, orientation, velocity, spin = body_frame(simulation.boat, simulation.state)
+    stamp = node.get_clock().now().to_msg()
+    pose, twist, odom = PoseStamped(), TwistStamped(), Odometry()
+    for message in (pose, twist, odom):
+        message.header.stamp = stamp
+    fill_pose(pose.pose, position, orientation)
+    fill_pose(odom.pose.pose, position, orientation)
+    fill_twist(twist.twist, velocity, spin)
+    fill_twist(odom.twist.twist, velocity, spin)
+    depth = Float64MultiArray(data=list(map(float, simulation.probe_depths)))
+    for topic, message in (('pose', pose), ('twist', twist), ('odom', odom),
+                           ('probe_depth', depth)):
+        out[topic].publish(message)
+node.create_subscription(WrenchStamped, 'thrust', lambda message: None, 1)
+node.create_timer(1.0 / rate, tick)
+rclpy.spin(node)
+"""
+
+
+class Running:
+    """A node and a listener in processes of their own, while one measures."""
+
+    def __init__(self, code, rate, topics):
+        """Start both and let them settle."""
+        self.namespace = new_namespace()
+        own = ['-p', 'status_period:=0.0'] if code is not PLAIN else []
+        self._node = subprocess.Popen(
+            [sys.executable, '-c', code, '--ros-args', '-r', f'__ns:={self.namespace}',
+             '-p', f'rate:={rate}', *own], cwd=ROOT, stderr=subprocess.DEVNULL)
+        self._listener = subprocess.Popen(
+            [sys.executable, '-c', LISTENER, self.namespace, ','.join(topics)], cwd=HERE,
+            stdout=subprocess.PIPE, text=True)
+        self._listener.stdout.readline()
+        time.sleep(3.0)
+
+    def cpu(self):
+        """Return the CPU time in s that the node has taken."""
+        with open(f'/proc/{self._node.pid}/stat') as file:
+            fields = file.read().rsplit(')', 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+
+    def __enter__(self):
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_):
+        """End both."""
+        for process in (self._node, self._listener):
+            process.kill()
+            process.wait()
+        self._listener.stdout.close()
+
+
+def load(code, rate, topics, seconds):
+    """Return the share of a core that a node takes."""
+    with Running(code, rate, topics) as running:
+        before, began = running.cpu(), time.monotonic()
+        time.sleep(seconds)
+        return (running.cpu() - before) / (time.monotonic() - began)
+
+
+def held(rate, seconds):
+    """Return the rate held in Hz, steps dropped and the worst step in s, over all outputs."""
+    with Running(SHIPPED, rate, OUTPUTS) as running, Probe(running.namespace) as one:
+        diagnostics = one.listen(DiagnosticArray, '/diagnostics')
+        one.until(lambda: diagnostics)
+        del diagnostics[:]
+        one.until(lambda: len(diagnostics) > seconds, timeout=2 * seconds + 10)
+        values = [{item.key: item.value for item in message.status[0].values}
+                  for message in diagnostics]
+    times = [message.header.stamp.sec + message.header.stamp.nanosec / 1e9
+             for message in diagnostics]
+    steps = int(values[-1]['steps']) - int(values[0]['steps'])
+    return (steps / (times[-1] - times[0]), int(values[-1]['steps dropped']),
+            max(float(value['worst step (ms)']) for value in values) / 1e3)
+
+
+def latency(rate, count):
+    """Return (count,) s from sending a wrench to receiving the first twist that it moved."""
+    chance, found = random.Random(0), []
+    with Running(SHIPPED, rate, OUTPUTS) as running, Probe(running.namespace) as one:
+        thrust = one.publisher(WrenchStamped, 'thrust', BEST_EFFORT)
+        got = []
+        one.node.create_subscription(
+            TwistStamped, 'twist',
+            lambda message: got.append((time.monotonic(), message.twist.linear.x)), 10)
+        one.until(lambda: got)
+        force = 2000.0
+        thrust.publish(wrench((force, 0.0, 0.0)))
+        one.spin(0.3)
+        while len(found) < count:
+            # The other way: the first twist whose speed turns is the one that it moved.
+            force, sign = -force, -np.sign(force)
+            one.spin(chance.uniform(0.05, 0.08))
+            del got[:-1]
+            sent = time.monotonic()
+            thrust.publish(wrench((force, 0.0, 0.0)))
+
+            def turned():
+                speeds = [speed for _, speed in got]
+                turns = np.flatnonzero(np.diff(speeds) * sign > 0)
+                return got[turns[0] + 1][0] if len(turns) else None
+            found.append(one.until(turned) - sent)
+    return np.array(found)
+
+
+def table(head, rows):
+    """Return lines of a Markdown table."""
+    return ['| ' + ' | '.join(head) + ' |', '|' + '---|' * len(head),
+            *('| ' + ' | '.join(row) + ' |' for row in rows), '']
+
+
+def measure(seconds):
+    """Yield the lines of the report."""
+    with open('/proc/cpuinfo') as file:
+        cpu = next((line.split(':')[1].strip() for line in file if 'model name' in line), '?')
+    yield from (
+        '# What the node costs', '',
+        f'Measured by `python test/ros_speed.py --seconds {seconds:g}` on {cpu}, '
+        f'{os.cpu_count()} cores, Python {platform.python_version()}, NumPy {np.__version__}; '
+        'default scene (4 probes, flat water), one subscribing process, localhost. Shares are of '
+        'one core, of the node alone; read ratios, not absolute times.', '',
+        '## By output, 100 Hz', '')
+    rows, none = [], load(SHIPPED, 100.0, (), seconds)
+    for topics in ((), *((topic,) for topic in OUTPUTS), OUTPUTS, (*OUTPUTS, 'probes'),
+                   (*OUTPUTS, 'probes', 'markers')):
+        share = load(SHIPPED, 100.0, topics, seconds) if topics else none
+        rows.append((', '.join(topics) or 'nobody listens', f'{share:.1%}',
+                     f'{share / 100.0 * 1e6:.0f}'))
+    yield from table(('subscribed', 'core', 'us per period'), rows)
+    yield from ('## By executor and loop, all default outputs', '')
+    rows = []
+    for rate in (100.0, 1000.0):
+        for name, code in (
+                ('own loop, EventsExecutor (shipped)', SHIPPED),
+                ('own loop, SingleThreadedExecutor', SINGLE),
+                ('own thread, SingleThreadedExecutor', THREAD),
+                ('timer, new messages, rclpy.spin', PLAIN)):
+            share = load(code, rate, OUTPUTS, seconds)
+            rows.append((f'{rate:g} Hz', name, f'{share:.1%}', f'{share / rate * 1e6:.0f}'))
+    yield from table(('rate', 'node', 'core', 'us per period'), rows)
+    yield from ('## Rate held, all default outputs', '')
+    rows = []
+    for rate in RATES:
+        achieved, dropped, worst = held(rate, seconds)
+        rows.append((f'{rate:g} Hz', f'{achieved:.2f} Hz', str(dropped), f'{worst * 1e3:.1f} ms'))
+    yield from table(('asked', 'held', 'steps dropped', 'worst step'), rows)
+    yield from ('## Latency, wrench sent to first moved twist received', '')
+    rows = []
+    for rate in (50.0, 100.0, 200.0, 500.0):
+        found = latency(rate, 200)
+        middle, most = np.percentile(found, (50, 99))
+        rows.append((f'{rate:g} Hz', f'{middle * 1e3:.1f} ms', f'{most * 1e3:.1f} ms',
+                     f'{middle * rate:.2f}', f'{most * rate:.2f}'))
+    yield from table(('rate', 'median', '99th percentile', 'median, periods',
+                      '99th percentile, periods'), rows)
+
+
+def main():
+    """Measure and write."""
+    parser = argparse.ArgumentParser(description=__doc__.split('\n\n')[0])
+    parser.add_argument('--seconds', type=float, default=10.0)
+    parser.add_argument('--out', type=Path, default=ROOT / 'doc' / 'ros_speed.md')
+    given = parser.parse_args()
+    lines = []
+    for line in measure(given.seconds):
+        print(line, flush=True)
+        lines.append(line)
+    given.out.write_text('\n'.join(lines))
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,323 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What must not disturb the node: floods, garbage, deaf and dying neighbours."""
+
+from array import array
+import math
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+
+from boat_buoyancy.physics.parameters import PARAMETERS
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
+import numpy as np
+import pytest
+from rcl_interfaces.msg import Parameter as ParameterMessage, ParameterValue
+from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile
+from ros_probe import BEST_EFFORT, BoatProcess, NAME, nanoseconds, Probe, wrench
+from std_msgs.msg import Float64MultiArray
+
+
+RATE = 100.0
+
+
+@pytest.fixture(scope='module')
+def boat():
+    """Start one boat for all that it has to bear."""
+    with BoatProcess({'sea.waves': [0.05, 4.0, 0.0, 0.0], 'status_period': 0.0}) as process:
+        yield process
+
+
+@pytest.fixture(scope='module')
+def probe(boat):
+    """Look at it with one probe."""
+    with Probe(boat.namespace) as one:
+        one.poses, one.twists, _, one.depths = one.listen_to_boat()
+        one.diagnostics = one.listen(DiagnosticArray, '/diagnostics')
+        one.until(lambda: one.poses and one.depths)
+        yield one
+
+
+class Steady:
+    """Checks on leaving that the node is alive, kept its rate, and sent finite numbers only."""
+
+    def __init__(self, boat, probe):
+        """Look at one boat through one probe."""
+        self._boat, self._probe = boat, probe
+
+    def __enter__(self):
+        """Begin to count."""
+        self._probe.until(lambda: self._steps() is not None)
+        self._before = self._steps()
+        for messages in (self._probe.poses, self._probe.twists, self._probe.depths):
+            messages.clear()
+        return self
+
+    def __exit__(self, kind, *_):
+        """Compare."""
+        if kind is not None:
+            return
+        probe, (stamp, steps) = self._probe, self._before
+        # Long enough that a hitch that is being caught up does not count.
+        probe.until(lambda: self._steps()[0] > stamp + 4.0)
+        later, more = self._steps()
+        assert self._boat.alive
+        assert (more - steps) / (later - stamp) == pytest.approx(RATE, rel=0.05)
+        for message in probe.poses:
+            place, turned = message.pose.position, message.pose.orientation
+            assert all(map(math.isfinite, (place.x, place.y, place.z, turned.x, turned.w)))
+        for message in probe.depths:
+            assert all(map(math.isfinite, message.data))
+
+    def _steps(self):
+        """Return the stamp in s and the steps of the last diagnostics."""
+        for message in reversed(self._probe.diagnostics):
+            for status in message.status:
+                if status.hardware_id == f'{self._boat.namespace}/{NAME}':
+                    steps = next(v.value for v in status.values if v.key == 'steps')
+                    return nanoseconds(message.header.stamp) / 1e9, int(steps)
+        return None
+
+
+@pytest.fixture
+def steady(boat, probe):
+    """Watch over a boat while something happens to it."""
+    return Steady(boat, probe)
+
+
+FLOOD = """
+import sys, time
+from ros_probe import BEST_EFFORT, Probe, wrench
+from geometry_msgs.msg import WrenchStamped
+with Probe(sys.argv[1], 'flood') as one:
+    thrust = one.publisher(WrenchStamped, 'thrust', BEST_EFFORT)
+    message, sent = wrench((2000.0, 0.0, 0.0)), 0
+    start = time.monotonic()
+    while (now := time.monotonic() - start) < float(sys.argv[2]):
+        while sent < 5000 * now:
+            thrust.publish(message)
+            sent += 1
+        time.sleep(0.0005)
+    print(sent / now)
+"""
+
+
+@pytest.mark.parametrize('seconds', [5.0, pytest.param(30.0, marks=pytest.mark.long)])
+def test_five_thousand_wrenches_a_second(boat, probe, steady, seconds):
+    with steady:
+        flood = subprocess.Popen([sys.executable, '-c', FLOOD, boat.namespace, str(seconds)],
+                                 cwd=os.path.dirname(__file__), stdout=subprocess.PIPE, text=True)
+        probe.until(lambda: flood.poll() is not None, timeout=seconds + 20.0)
+        assert float(flood.stdout.read()) > 4000.0
+        assert probe.twists[-1].twist.linear.x > 0.15
+
+
+def bad_messages():
+    """Yield (topic, message) of every kind that is wrong."""
+    nan, inf = math.nan, math.inf
+    for force in ((nan, 0.0, 0.0), (0.0, inf, 0.0), (0.0, 0.0, -inf), (1e308, 0.0, 0.0)):
+        yield 'thrust', wrench(force)
+        yield 'thrust', wrench(torque=force)
+    for frame in ('map', 'x' * 10_000, '/odom', '\u00e9'):
+        yield 'thrust', wrench((1.0, 0.0, 0.0), frame=frame)
+    for rows in ([1.0], [0.1, 4.0, 0.0], [nan] * 4, [0.1, inf, 0.0, 0.0], [1e308] * 4,
+                 [0.1, 1e308, 0.0, 0.0], [-0.1, 4.0, 0.0, 0.0], [0.1, 0.0, 0.0, 0.0],
+                 [0.1, -4.0, 0.0, 0.0], [0.1, 4.0, 0.0, 0.0] * 1001, [0.1] * 4001,
+                 [0.1, 4.0, 0.0, 0.0] * 10_000):
+        yield 'wave_parameters', Float64MultiArray(data=rows)
+    for x, w, frame in ((nan, 1.0, ''), (1e308, 1.0, ''), (0.0, 0.0, ''), (0.0, inf, ''),
+                        (0.0, 1.0, 'map')):
+        message = PoseWithCovarianceStamped()
+        message.header.frame_id = frame
+        message.pose.pose.position.x, message.pose.pose.orientation.w = x, w
+        yield 'initialpose', message
+
+
+@pytest.mark.parametrize('count', [2_000, pytest.param(10_000, marks=pytest.mark.long)])
+def test_malformed_messages_of_every_kind(boat, probe, steady, count):
+    kinds = {'thrust': WrenchStamped, 'wave_parameters': Float64MultiArray,
+             'initialpose': PoseWithCovarianceStamped}
+    publishers = {topic: probe.publisher(kind, topic, BEST_EFFORT if topic == 'thrust'
+                                         else QoSProfile(depth=1000))
+                  for topic, kind in kinds.items()}
+    bad = list(bad_messages())
+    with steady:
+        place = probe.poses[-1].pose.position if probe.poses else None
+        for i in range(count):
+            topic, message = bad[i % len(bad)]
+            publishers[topic].publish(message)
+            if i % 20 == 0:
+                probe.spin(0.01)
+        probe.spin(1.0)
+    assert place is None or abs(probe.poses[-1].pose.position.x - place.x) < 1.0
+    for reason in ('expected finite numbers', 'expected frame_id', 'four numbers a row',
+                   'expected an amplitude', 'expected at most 1000 rows',
+                   'times the weight', 'expected a unit quaternion'):
+        assert reason in boat.log, reason
+    # Throttled: a reason is not said more than once in five seconds.
+    assert len(boat.lines) < count / 20
+
+
+def test_ten_million_values(boat, probe, steady):
+    publisher = probe.publisher(Float64MultiArray, 'wave_parameters')
+    huge = Float64MultiArray()
+    huge.data = array('d', bytes(8 * 10_000_000))
+    with steady:
+        for _ in range(3):
+            publisher.publish(huge)
+            probe.spin(3.0)
+        boat.wait_for_log('got a message of 80000')
+
+
+def random_value(parameter, chance):
+    """Return a value for a parameter, good, bad, or of another type."""
+    kind = chance.randrange(8)
+    if kind == 0:
+        return chance.choice(['text', True, 3, 2.5, [1.0, 2.0], [], [1, 2], ['a'], math.nan,
+                              -math.inf, 1e308, -1.0, 0.0])
+    default = parameter.default
+    if isinstance(default, (bool, str)) or default is None:
+        return chance.choice([default if default is not None else 'x', 1.0, [0.1, 4.0, 0.0, 0.0]])
+    scale = chance.choice([0.5, 0.9, 1.0, 1.1, 2.0, -1.0, 1e300])
+
+    def scaled(item):
+        # An integer has 64 bits on its way.
+        return (item * scale if isinstance(item, float)
+                else int(max(-2.0 ** 62, min(2.0 ** 62, item * scale))))
+
+    return [scaled(item) for item in default] if isinstance(default, tuple) else scaled(default)
+
+
+@pytest.mark.parametrize('count', [100, pytest.param(1000, marks=pytest.mark.long)])
+def test_random_parameter_sets_while_moving(boat, probe, steady, count):
+    chance = random.Random(5)
+    names = list(PARAMETERS)
+    client = probe.node.create_client(SetParameters, f'{NAME}/set_parameters')
+    probe.until(client.service_is_ready)
+    answers = []
+    with steady:
+        for _ in range(count):
+            name = chance.choice(names)
+            value = random_value(PARAMETERS[name], chance)
+            message = ParameterMessage(name=name)
+            if value == []:
+                message.value = ParameterValue(type=8)
+            else:
+                message.value = Parameter(name, value=value).get_parameter_value()
+            future = client.call_async(SetParameters.Request(parameters=[message]))
+            probe.until(future.done)
+            answers += future.result().results
+    refused = [answer.reason for answer in answers if not answer.successful]
+    assert len(answers) == count and 0 < len(refused) < count
+    assert all(refused)
+    # A type that does not exist must not end it either.
+    request = SetParameters.Request(parameters=[
+        ParameterMessage(name='boat.mass', value=ParameterValue(type=77))])
+    client.call_async(request)
+    boat.wait_for_log('a request was not understood')
+    probe.set_atomically({'boat.mass': 2000.0, 'sea.waves': [0.05, 4.0, 0.0, 0.0]})
+    probe.trigger('reset')
+
+
+def test_a_publisher_that_is_killed_and_restarted(boat, probe, steady):
+    with steady:
+        for _ in range(3):
+            pusher = subprocess.Popen(
+                [sys.executable, '-c', FLOOD, boat.namespace, '30.0'],
+                cwd=os.path.dirname(__file__), stdout=subprocess.DEVNULL)
+            probe.twists.clear()
+            probe.until(lambda: probe.twists and probe.twists[-1].twist.linear.x > 0.15)
+            pusher.send_signal(signal.SIGKILL)
+            pusher.wait()
+            probe.trigger('reset')
+
+
+DEAF = """
+import sys, time
+from ros_probe import Probe
+with Probe(sys.argv[1], 'deaf') as one:
+    one.listen_to_boat()
+    print('there', flush=True)
+    time.sleep(60.0)
+"""
+
+
+def test_a_subscriber_that_never_reads(boat, probe, steady):
+    with steady:
+        deaf = subprocess.Popen([sys.executable, '-c', DEAF, boat.namespace],
+                                cwd=os.path.dirname(__file__), stdout=subprocess.PIPE, text=True)
+        try:
+            assert deaf.stdout.readline() == 'there\n'
+            probe.spin(1.0)
+            # And one that is not scheduled at all.
+            deaf.send_signal(signal.SIGSTOP)
+            probe.spin(3.0)
+        finally:
+            deaf.kill()
+            deaf.wait()
+            deaf.stdout.close()
+
+
+def memory_of(process):
+    """Return the resident memory of a process in MB."""
+    with open(f'/proc/{process.pid}/statm') as file:
+        return int(file.read().split()[1]) * os.sysconf('SC_PAGE_SIZE') / 1e6
+
+
+@pytest.mark.long
+def test_ten_minutes_of_everything_neither_grow_nor_lose_a_step():
+    chance = random.Random(1)
+    seconds = float(os.environ.get('BOAT_BUOYANCY_SOAK', '600'))
+    with BoatProcess({'sea.sea_state': 3}) as boat, Probe(boat.namespace) as one:
+        thrust = one.publisher(WrenchStamped, 'thrust', BEST_EFFORT)
+        waves = one.publisher(Float64MultiArray, 'wave_parameters')
+        lists = one.listen_to_boat()
+        diagnostics = one.listen(DiagnosticArray, '/diagnostics')
+        last, missing, dropped, memory = None, 0, 0, []
+        start = time.monotonic()
+
+        def push():
+            thrust.publish(wrench((chance.uniform(-500, 500), 0.0, 0.0),
+                                  (0.0, 0.0, chance.uniform(-100, 100))))
+
+        while time.monotonic() < start + seconds:
+            end = time.monotonic() + 5.0
+            one.until(lambda: time.monotonic() > end, timeout=20.0, doing=push)
+            waves.publish(Float64MultiArray(data=[
+                chance.uniform(0.0, 0.3), chance.uniform(2.0, 8.0), chance.uniform(-3, 3), 0.0]))
+            stamps = np.array([nanoseconds(message.header.stamp) for message in lists[0]])
+            if last is not None:
+                stamps = np.concatenate([[last], stamps])
+            missing += int((np.diff(stamps) // 10_000_000 - 1).sum())
+            last = int(stamps[-1])
+            for message in diagnostics:
+                for status in message.status:
+                    dropped = int({v.key: v.value for v in status.values}['steps dropped'])
+            for messages in (*lists, diagnostics):
+                messages.clear()
+            memory.append(memory_of(boat.process))
+        warm = memory[min(len(memory) // 5, 12):]
+        print(f'{seconds:.0f} s: {missing} periods missing, {dropped} dropped by its own count, '
+              f'memory {warm[0]:.2f} to {warm[-1]:.2f} MB, most {max(warm):.2f}')
+        # No step is lost that is not said.
+        assert missing == dropped
+        assert max(warm) - warm[0] < 2.0
+        assert boat.end(signal.SIGINT) == 0

@@ -1,0 +1,177 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the node keeps between messages and steps, without a graph."""
+
+import math
+
+from boat_buoyancy.physics import load_scene
+from boat_buoyancy.physics.simulation import SimulationError
+from boat_buoyancy.physics.waves import Sea
+from boat_buoyancy.ros.inputs import Complaints, Duplicates, Refused, ThrustLatch
+from boat_buoyancy.ros.session import Session
+import numpy as np
+import pytest
+
+
+ROWS = [0.2, 4.0, 0.3, 1.0]
+START = 1_795_415_697_933_873_175  # ns
+
+
+def quarter_turn():
+    """Return the orientation of a boat heading along world y."""
+    return (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+
+
+def surface_error(session, x=1.0, y=-2.0):
+    """Return what the surface in a session is off that of the sea at its stamp, in m."""
+    expected = session.sea.elevation(x, y, session.stamp % 4_000_000_000 / 1e9)
+    simulation = session.simulation
+    return float(simulation.sea.at(simulation.time).elevation(x, y, simulation.time) - expected)
+
+
+def test_a_latch_holds_until_the_time_out_and_0_holds_for_ever():
+    latch = ThrustLatch(0.5)
+    assert latch.wrench(0.0, quarter_turn) is None and latch.age(0.0) is None
+    latch.hold((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), False, 10.0)
+    assert latch.wrench(10.5, quarter_turn) == (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+    assert latch.wrench(10.51, quarter_turn) is None
+    latch.timeout = 0.0
+    assert latch.wrench(1e9, quarter_turn) is not None
+    latch.clear()
+    assert latch.wrench(1e9, quarter_turn) is None
+
+
+def test_a_wrench_in_world_axes_is_turned_by_the_attitude_of_the_moment():
+    latch = ThrustLatch(0.5)
+    latch.hold((0.0, 7.0, 0.0, 0.0, 3.0, 0.0), True, 0.0)
+    np.testing.assert_allclose(latch.wrench(0.1, quarter_turn), (7.0, 0.0, 0.0, 3.0, 0.0, 0.0),
+                               atol=1e-12)
+    np.testing.assert_allclose(latch.wrench(0.1, lambda: (0.0, 0.0, 0.0, 1.0)),
+                               (0.0, 7.0, 0.0, 0.0, 3.0, 0.0), atol=1e-12)
+
+
+def test_copies_are_told_apart_from_messages_that_are_sent_again():
+    copies = Duplicates()
+    # a, b, a by both subscriptions, interleaved as they may come.
+    seen = [('volatile', b'a'), ('volatile', b'b'), ('latched', b'a'), ('volatile', b'a'),
+            ('latched', b'b'), ('latched', b'a')]
+    assert [copies.is_copy(*one, 0.1) for one in seen] == [False, False, True, False, True, True]
+    # By one subscription alone nothing is a copy; nor is what comes much later.
+    assert [copies.is_copy('volatile', b'c', 0.2) for _ in range(3)] == [False] * 3
+    assert not copies.is_copy('latched', b'c', 5.0)
+
+
+def test_complaints_are_all_counted_and_said_once_in_five_seconds():
+    said = []
+    complaints = Complaints(said.append)
+    for i in range(100):
+        complaints.add('thrust', Refused('not finite', 'thrust: nan'), 0.01 * i)
+    complaints.add('thrust', Refused('unknown frame', 'thrust: map'), 1.0)
+    complaints.add('thrust', Refused('not finite', 'thrust: nan'), 6.0)
+    assert said == ['thrust: nan', 'thrust: map', 'thrust: nan (99 more like it before)']
+    assert complaints.counts == {'thrust: not finite': 101, 'thrust: unknown frame': 1}
+
+
+def test_the_sea_is_a_function_of_the_stamp_from_the_first_step_on():
+    session = Session(load_scene({'sea.waves': ROWS}))
+    session.rebase(START)
+    for _ in range(300):
+        assert abs(surface_error(session)) < 1e-9
+        session.step(0.0)
+    assert session.stamp == START + 3_000_000_000
+
+
+def test_skipped_time_brings_other_water_without_a_jump_and_exactly_after_the_fade():
+    session = Session(load_scene({'sea.waves': ROWS}))
+    session.rebase(START)
+    for _ in range(100):
+        session.step(0.0)
+    before = session.simulation.sea.elevation(1.0, -2.0, session.simulation.time)
+    session.skip(170)
+    assert session.stamp == START + 2_700_000_000
+    after = session.simulation.sea.elevation(1.0, -2.0, session.simulation.time)
+    assert after == pytest.approx(before, abs=1e-12)
+    for _ in range(201):
+        session.step(0.0)
+    assert abs(surface_error(session)) < 1e-9
+
+
+def test_another_boat_goes_on_from_place_speed_and_stamp_of_the_one_before():
+    session = Session(load_scene({'sea.waves': ROWS}))
+    session.rebase(START)
+    for _ in range(123):
+        session.step(0.0)
+    before, stamp = session.simulation.state, session.stamp
+    scene = load_scene({'sea.waves': ROWS, 'boat.mass': 2500.0})
+    session.change(scene, scene.simulation())
+    after = session.simulation.state
+    for name in ('position', 'orientation', 'velocity', 'angular_velocity'):
+        np.testing.assert_allclose(getattr(after, name), getattr(before, name), atol=1e-12)
+    assert session.stamp == stamp and session.steps == 123
+    assert session.simulation.boat.mass == 2500.0
+    for _ in range(50):
+        session.step(0.0)
+        assert abs(surface_error(session)) < 1e-9
+
+
+def test_waves_that_came_by_message_stay_when_the_boat_or_the_current_changes():
+    session = Session(load_scene({'sea.transition': 0.0}))
+    assert session.set_waves(Sea(ROWS).waves)
+    assert not session.set_waves(Sea(ROWS).waves)
+    for values in ({'boat.mass': 2500.0}, {'sea.current': [1.0, 0.0]}):
+        scene = load_scene({'sea.transition': 0.0, **values})
+        session.change(scene, scene.simulation())
+        assert session.sea.waves.ravel().tolist() == ROWS
+    assert session.sea.current.tolist() == [1.0, 0.0]
+
+
+def test_a_flood_of_seas_ends_with_the_last_of_them():
+    session = Session(load_scene({'sea.transition': 1.0}))
+    for i in range(300):
+        session.set_waves(Sea([[0.1, 3.0 + 0.01 * i, 0.0, 0.0]]).waves)
+        session.step(0.0)
+    for _ in range(300):
+        session.step(0.0)
+    assert isinstance(session.simulation.sea, Sea)
+    assert session.simulation.sea.waves[0, 1] == pytest.approx(3.0 + 0.01 * 299)
+
+
+def test_a_fault_stops_the_motion_until_reset(monkeypatch):
+    session = Session(load_scene({}))
+    session.thrust.hold((100.0, 0.0, 0.0, 0.0, 0.0, 0.0), False, 0.0)
+    assert session.step(0.0)
+    good, stamp = session.simulation.state, session.stamp
+
+    def fail(thrust=None):
+        raise SimulationError('forced from inside')
+    with monkeypatch.context() as patch:
+        patch.setattr(session.simulation, 'step', fail)
+        assert not session.step(0.0)
+    assert session.fault == 'forced from inside'
+    assert not session.step(0.0)
+    np.testing.assert_array_equal(session.simulation.state.position, good.position)
+    assert session.stamp == stamp
+    session.reset()
+    assert session.fault is None and session.thrust.age(0.0) is None
+    assert session.step(0.0) and session.stamp > stamp
+
+
+def test_a_boat_put_somewhere_floats_there_at_its_draft_and_at_rest():
+    session = Session(load_scene({}))
+    session.place(5.0, -3.0, 1.2)
+    state = session.simulation.state
+    assert state.position.tolist() == pytest.approx([5.0, -3.0, 0.5 - 2000.0 / 8200.0])
+    assert not state.velocity.any() and not state.angular_velocity.any()
+    assert 2 * math.atan2(state.orientation[2], state.orientation[3]) == pytest.approx(1.2)
