@@ -142,13 +142,14 @@ def _single(best):
     """Return the lines on cosines in single precision."""
     single, double = (microseconds(best, Case(kind, 1000, BASE_PROBES, BASE_WAVES))
                       for kind in ('single', 'double'))
-    step = microseconds(best, Case('step', 1000, BASE_PROBES, BASE_WAVES))
     return ['## Single precision', '',
             f'A set of {BASE_PROBES * BASE_WAVES} cosines costs {double:.3g} microseconds in '
             f'double and {single:.3g} reduced in double and taken in single precision, with an '
-            f'error of {single_precision_error():.1g} of the amplitude.  The step takes two such '
-            f'sets (cosines, and sines as cosines a quarter turn on): of {step:.3g} it would '
-            f'save {2 * (double - single):.2g}.  The package stays in double.']
+            f'error of {single_precision_error():.1g} of the amplitude.  One boat takes two such '
+            'sets (cosines, and sines as cosines a quarter turn on) and would save next to '
+            'nothing; a fleet makes both of one tangent in double, so there is no cosine left to '
+            'shorten. '
+            'The package stays in double.']
 
 
 def write_table(path, best):
