@@ -37,7 +37,7 @@ ARGUMENTS = {
     'namespace': ('', 'Namespace of the boat: two boats need two.'),
     'x': ('', 'Where the boat starts along world x, in m; with x or y it floats at its draft. '
               "Empty: the scene's start."),
-    'y': ('', 'Where the boat starts along world y, in m.'),
+    'y': ('', 'Where the boat starts along world y, in m; with x alone 0.'),
     'yaw': ('', "Heading at the start in rad, counter-clockwise from x; level. Empty: the scene's "
                 'start.'),
     'publish_clock': ('', 'true: this boat is the source of /clock, from 0 on.'),
@@ -60,16 +60,32 @@ def scene_file(name):
     return path
 
 
+def number(given, name):
+    """Return an argument as a number; 0.0 when it is empty."""
+    try:
+        return float(given[name] or 0.0)
+    except ValueError:
+        raise RuntimeError(f'{name}: expected a number, got {given[name]!r}') from None
+
+
+def switch(given, name):
+    """Return an argument that is true or false."""
+    values = {'true': True, '1': True, 'false': False, '0': False}
+    if given[name].lower() not in values:
+        raise RuntimeError(f'{name}: expected true or false, got {given[name]!r}')
+    return values[given[name].lower()]
+
+
 def overrides(given):
     """Return the parameters that arguments set; those left empty are the scene's."""
-    parameters = {name: given[name].lower() in ('true', '1')
+    parameters = {name: switch(given, name)
                   for name in ('publish_clock', 'use_sim_time') if given[name]}
     if given['time_factor']:
-        parameters['time_factor'] = float(given['time_factor'])
+        parameters['time_factor'] = number(given, 'time_factor')
     if given['x'] or given['y']:
-        parameters['start.position'] = [float(given['x'] or 0.0), float(given['y'] or 0.0)]
+        parameters['start.position'] = [number(given, 'x'), number(given, 'y')]
     if given['yaw']:
-        parameters['start.orientation'] = [0.0, 0.0, float(given['yaw'])]
+        parameters['start.orientation'] = [0.0, 0.0, number(given, 'yaw')]
     return parameters
 
 

@@ -15,6 +15,7 @@
 """The advice of the chart: the setting it names holds on fresh runs, and a cheaper one fails."""
 
 from dataclasses import replace
+from pathlib import Path
 
 from boat_buoyancy.physics.hydrostatics import rest_state
 from boat_buoyancy.physics.scene import load_scene
@@ -25,6 +26,7 @@ import numpy as np
 import pytest
 import yaml
 
+CONFIG = Path(__file__).parents[1] / 'config'
 # Four probes in an irregular sea; a box in regular waves shorter than twice its length; a box
 # that falls into still water.
 SCENES = {
@@ -102,13 +104,32 @@ def test_next_cheaper_setting_misses_the_tolerance_on_fresh_runs(case):
         assert trial.error(found.cheaper.setting) > tolerance
 
 
+def test_lines_take_the_place_of_those_of_a_shipped_file(tmp_path):
+    setting = Setting('leapfrog', 8.0, (4, 2))
+    lines = (CONFIG / 'barge.yaml').read_text().splitlines()
+    for line in setting.lines():
+        name = line.partition(':')[0].strip()
+        places = [i for i, old in enumerate(lines) if old.strip().startswith(f'{name}:')]
+        if name in ('integrator', 'rate', 'substeps'):
+            assert not places
+            lines.insert(lines.index('  ros__parameters:') + 1, f'    {line}')
+        elif name == 'hull':
+            assert len(places) == 1
+        else:
+            lines[places[0]] = f'    {line}'
+    path = tmp_path / 'barge.yaml'
+    path.write_text('\n'.join(lines) + '\n')
+    simulation = load_scene(path).simulation()
+    assert (simulation.rate, len(simulation.probe_depths)) == (8.0, 8)
+
+
 def test_advised_lines_are_a_parameter_file_that_runs(case, tmp_path):
     given, tolerance, found, trials = case
     lines = found.best.setting.lines()
     assert all(f'    {line}' in advice.report('scene.yaml', found, tolerance) for line in lines)
     pasted = yaml.safe_load('\n'.join(lines))
     kept = {name: list(value) if isinstance(value, tuple) else value
-            for name, value in given.items() if name not in pasted}
+            for name, value in given.items() if name not in found.best.setting.values()}
     path = tmp_path / 'scene.yaml'
     path.write_text(yaml.safe_dump({'/**': {'ros__parameters': {**kept, **pasted}}}))
     simulation = load_scene(path).simulation()

@@ -137,6 +137,24 @@ def test_waves_that_came_by_message_stay_when_the_boat_or_the_current_changes():
     assert session.sea.current.tolist() == [1.0, 0.0]
 
 
+def test_a_parameter_that_asks_for_waves_takes_the_place_of_those_of_a_message():
+    calm = {'sea.transition': 0.0}
+    for values in ({**calm, 'sea.waves': ROWS}, {**calm, 'sea.waves': []}):
+        session = Session(load_scene(values))
+        session.set_waves(Sea([[0.05, 3.0, 0.0, 0.0]]).waves)
+        scene = load_scene(values)
+        session.change(scene, scene.simulation(), {'sea.waves'})
+        assert session.sea.waves.ravel().tolist() == values['sea.waves']
+
+
+def test_a_seed_without_an_irregular_sea_leaves_the_waves_of_a_message():
+    session = Session(load_scene({'sea.transition': 0.0}))
+    session.set_waves(Sea(ROWS).waves)
+    scene = load_scene({'sea.transition': 0.0, 'sea.seed': 2})
+    session.change(scene, scene.simulation(), {'sea.seed'})
+    assert session.sea.waves.ravel().tolist() == ROWS
+
+
 def test_a_flood_of_seas_ends_with_the_last_of_them():
     session = Session(load_scene({'sea.transition': 1.0}))
     for i in range(300):

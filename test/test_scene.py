@@ -239,9 +239,29 @@ def test_drag_that_counts_twice_is_warned_of():
     scene = load_scene({'damping.linear': [1.0] * 6, 'damping.angular_retention': [1.0]})
     assert any(sentence.startswith('Drag counts twice: damping.linear on top of '
                                    'damping.linear_retention') for sentence in scene.warnings)
-    scene = load_scene({'damping.quadratic': [1.0] * 6, 'damping.angular_retention': [1.0],
-                        'damping.linear_retention': [1.0]})
-    assert scene.warnings == ()
+    alone = {'damping.quadratic': [1.0] * 6, 'damping.angular_retention': [1.0],
+             'damping.linear_retention': [1.0]}
+    assert load_scene({**alone, 'damping.probe': 0.0}).warnings == ()
+    sentence, = load_scene(alone).warnings
+    assert 'on top of damping.probe' in sentence and 'set damping.probe: 0.0' in sentence
+
+
+def test_what_nothing_looks_at_is_said_and_not_ignored():
+    corners = {'probes.positions': [1.0, 1.0, 0.0, 1.0, -1.0, 0.0, -1.0, 1.0, 0.0,
+                                    -1.0, -1.0, 0.0]}
+    for values, name in (({**corners, 'water_density': 1000.0}, 'water_density'),
+                         ({'sea.waves': [0.1, 4.0, 0.0, 0.0], 'sea.direction': 1.0},
+                          'sea.direction'), ({'sea.seed': 7}, 'sea.seed')):
+        sentence, = load_scene(values).warnings
+        assert sentence.startswith(f'{name} has no effect: ')
+    assert load_scene({'sea.sea_state': 2, 'sea.seed': 7, 'sea.direction': 1.0,
+                       'water_density': 1000.0}).warnings == ()
+
+
+def test_substeps_out_of_range_are_refused_wherever_they_are_given():
+    for asked in (100000, -1, 2.5):
+        with pytest.raises(ValueError, match='substeps: expected'):
+            load_scene({}).simulation(substeps=asked)
 
 
 # The start.

@@ -69,13 +69,13 @@ def flotation_warnings(boat):
         sentences.append(
             f'A probe is full at rest ({_named(boat, full)}): it gives all it can and neither '
             'trims nor rights the boat any further, so the boat may list or capsize; raise its '
-            'weight in probes.weights, raise probes.floatiness, or move boat.center_of_mass away '
-            'from it.')
+            'weight in probes.weights, raise probes.floatiness (a hull: enlarge hull.size), or '
+            'move boat.center_of_mass away from it.')
     if left.any():
         sentences.append(
             f'A probe is out of the water at rest ({_named(boat, left)}): it holds nothing until '
-            'it dips in; lower its weight in probes.weights or move boat.center_of_mass towards '
-            'it.')
+            'it dips in; lower its weight in probes.weights (a hull: make hull.size smaller), or '
+            'move boat.center_of_mass towards it.')
     return tuple(sentences)
 
 

@@ -71,10 +71,10 @@ class Scene:
         otherwise they are a ValueError.
         """
         rate = self.rate if rate is None else checked('rate', rate)
+        substeps = self.substeps if substeps is None else checked('substeps', substeps)
         plan = stability.plan(
             self.boat, integrator=self.integrator if integrator is None else integrator,
-            rate=rate, substeps=self.substeps if substeps is None else substeps,
-            allow_unstable=allow_unstable)
+            rate=rate, substeps=substeps, allow_unstable=allow_unstable)
         return Simulation(
             self.boat, self.sea, self.start if state is None else state, rate=rate,
             integrator=plan.integrator, substeps=plan.substeps,
@@ -170,6 +170,13 @@ def _warnings(boat, sea, given, in_force):
         warnings.append(
             f'Drag counts twice: {" and ".join(drag)} on top of {" and ".join(retained)}, so the '
             'boat will be slower than the vehicle it was measured on; set retention to [1.0].')
+    if drag and 'damping.probe' not in given and boat.damping.probe > 0.0:
+        warnings.append(
+            f'Drag counts twice: {" and ".join(drag)} on top of damping.probe, which is '
+            f'{boat.damping.probe:.4g} N s/m when left out and brakes in all directions; set '
+            'damping.probe: 0.0 for the drag of a measured vehicle alone.')
+    warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
+                 if name in given and given[name] != parameters.PARAMETERS[name].default]
     for name, angles in (('sea.waves', sea.waves[:, 2]),
                          ('sea.direction', [in_force['sea.direction']]),
                          ('start.orientation', in_force['start.orientation'])):
@@ -185,6 +192,17 @@ def _warnings(boat, sea, given, in_force):
             f'has a height of {steepness[row]:.2g} of its length, and breaks above {BREAKING:.2g};'
             ' give it a longer period or less amplitude.')
     return tuple(warnings)
+
+
+def _without_effect(in_force):
+    """Yield (name, why) of the parameters that nothing in the scene looks at."""
+    if in_force['probes.positions'] is not None:
+        yield ('water_density', 'probes.floatiness sets the lift of probes, and the density of '
+               'water that of a hull shape')
+    if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:
+        for name in ('sea.direction', 'sea.components', 'sea.seed'):
+            yield name, ('it shapes an irregular sea, and there is none: give sea.sea_state or '
+                         'sea.significant_height')
 
 
 def _complete(boat, given, in_force):

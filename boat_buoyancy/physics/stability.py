@@ -81,8 +81,9 @@ def plan(boat, *, integrator='leapfrog', rate=100.0, substeps=0, allow_unstable=
         warnings.append(
             f'{integrator} would need {needed} substeps at {rate:g} Hz (at most {MAX_SUBSTEPS} '
             'are chosen), so the boat is stepped by implicit with one step: it never blows up, '
-            'but it damps free oscillation; to keep the method, lower probes.stiffness or '
-            'damping.probe, raise rate, or give substeps yourself.')
+            'but it damps free oscillation; to keep the method, lower probes.stiffness (a '
+            'hull: more mass or a smaller waterplane) or damping.probe, raise rate, or give '
+            'substeps yourself.')
         integrator, needed, limit = 'implicit', 1, None
     chosen = asked or needed
     if limit is not None and 1.0 / (rate * chosen) >= limit:
@@ -135,7 +136,7 @@ def _rattling(boat, rest, integrator, rate, substeps, needed):
     yield (f'At {rate * substeps:g} Hz this boat will rattle at rest: draft '
            f'{_length(draft(boat, rest_state(boat)))}, omega h = {angle:.2g} (at most {CALM:g} '
            f'settles); take substeps: {needed}, integrator: implicit, or a lower '
-           'probes.stiffness.')
+           'probes.stiffness (a hull: more mass or a smaller waterplane).')
 
 
 def _growing(rest, rate, substeps):

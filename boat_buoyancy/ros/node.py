@@ -204,6 +204,9 @@ class BoatNode(Node):
 
     def _on_place(self, message):
         x, y, yaw = read_place(message, self.session.scene)
+        if self.session.fault:
+            raise Refused('stopped', 'initialpose: the motion was stopped by a fault; expected a '
+                          'call of ~/reset first')
         self.session.place(x, y, yaw)
         self.get_logger().info(f'boat put at x {x:.2f} y {y:.2f} m, floating at its draft')
         self._show_paused()
@@ -213,9 +216,9 @@ class BoatNode(Node):
         if self._paused:
             self._publish()
 
-    def _change(self, scene, simulation):
+    def _change(self, scene, simulation, names):
         before = self.session.sea
-        self.session.change(scene, simulation)
+        self.session.change(scene, simulation, names)
         self._reports.warnings(simulation)
         if self.session.sea is not before:
             self._waves_output.publish(self.session.sea)

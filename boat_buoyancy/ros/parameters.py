@@ -119,7 +119,7 @@ class LiveParameters:
     Parameters that change while the node runs: a set is judged as a whole, then applied.
 
     Main arguments: ``node``; ``given`` {name: value}, what the user gave; ``scene`` made of it;
-    ``apply`` (scene, simulation), called between two steps.
+    ``apply`` (scene, simulation, names that were set), called between two steps.
     """
 
     def __init__(self, node, given, scene, apply):
@@ -136,12 +136,12 @@ class LiveParameters:
         try:
             given = self._merged(requested)
             scene = scenes.scene_from_values(given)
-            self._proposal = given, scene, scene.simulation()
+            names = {parameter.name for parameter in requested}
+            self._proposal = given, scene, scene.simulation(), frozenset(names)
         except Exception as error:  # a raise here would be the end of the node
             self._refusal = ' '.join(str(error).split()) or repr(error)
             # rclpy looks at types and ranges first: give it nothing to add to our reason.
             return [self._in_force(parameter) for parameter in requested]
-        names = {parameter.name for parameter in requested}
         names |= {name for name, value in scene.values.items()
                   if value != self._scene.values.get(name)}
         return [ros_parameter(name, scene.values[name]) for name in sorted(names)]
@@ -182,6 +182,6 @@ class LiveParameters:
     def _take(self, _):
         if self._proposal is None:
             return
-        self._given, self._scene, simulation = self._proposal
+        self._given, self._scene, simulation, names = self._proposal
         self._proposal = None
-        self._apply(self._scene, simulation)
+        self._apply(self._scene, simulation, names)

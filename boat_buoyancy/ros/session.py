@@ -29,10 +29,9 @@ from .pacing import NANOSECONDS, Timeline
 from ..physics.hydrostatics import rest_state
 from ..physics.simulation import SimulationError
 from ..physics.transition import fade, SeaTransition
-from ..physics.waves import Sea
 
-WAVES = ('sea.waves', 'sea.sea_state', 'sea.significant_height', 'sea.peak_period',
-         'sea.direction', 'sea.components', 'sea.seed')
+# Parameters that ask for waves of one kind or another; the rest of sea.* only shapes them.
+WAVES = frozenset(('sea.waves', 'sea.sea_state', 'sea.significant_height', 'sea.peak_period'))
 
 
 class Session:
@@ -118,11 +117,12 @@ class Session:
         self._turn_to(self._clocked(self.sea))
         return True
 
-    def change(self, scene, simulation):
+    def change(self, scene, simulation, names=()):
         """
         Go on with another boat or sea: a `Scene` of the same probes, and a simulation of it.
 
-        What moves keeps moving.  Waves that came by message stay unless the scene's changed.
+        What moves keeps moving.  Waves that came by message stay unless the scene's changed or
+        ``names``, the parameters that were set, ask for waves.
         """
         before, self.scene = self.scene, scene
         self.thrust.timeout = scene.thrust_timeout
@@ -134,11 +134,10 @@ class Session:
             simulation.reset(old.state)
             simulation.sea = (old.sea.starting_at(old.time)
                               if isinstance(old.sea, SeaTransition) else self._clocked(self.sea))
-        if changed.intersection(WAVES):
-            self.sea = scene.sea
-        else:
-            self.sea = Sea(self.sea.waves, scene.sea.current, scene.sea.depth, scene.sea.gravity)
-        if changed.intersection(WAVES) or changed & {'sea.current', 'sea.depth'}:
+        waves = (scene.sea.waves if WAVES.intersection(names)
+                 or not np.array_equal(scene.sea.waves, before.sea.waves) else self.sea.waves)
+        if not np.array_equal(waves, self.sea.waves) or changed & {'sea.current', 'sea.depth'}:
+            self.sea = replace(scene.sea, waves=waves)
             self._turn_to(self._clocked(self.sea))
 
     def skip(self, periods):

@@ -167,9 +167,10 @@ def report(name, advice, tolerance):
             lines += ['', _worth(advice)]
         return lines
     lines = [f'{name}: the cheapest setting that meets {tolerance:g} m. In its parameter file, '
-             'in place of what it has:', '']
+             'each in place of the line of that name, if it has one:', '']
     lines += [f'    {line}' for line in best.setting.lines()]
-    lines += ['', _worth(advice)]
+    lines += ['', _worth(advice),
+              'rate is also how often the node publishes: where that is too seldom, keep yours.']
     if cheaper is None:
         lines.append('Nothing that was tried is cheaper.')
     else:

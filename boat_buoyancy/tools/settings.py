@@ -58,8 +58,15 @@ class Setting:
         return values
 
     def lines(self):
-        """Return the lines of a parameter file."""
-        return [f'{name}: {value}' for name, value in self.values().items()]
+        """Return the lines of a parameter file, groups nested as the shipped files have them."""
+        lines, group = [], None
+        for name, value in self.values().items():
+            above, _, last = name.rpartition('.')
+            if above and above != group:
+                lines.append(f'{above}:')
+            group = above
+            lines.append(f'{"  " if above else ""}{last}: {value}')
+        return lines
 
     def __str__(self):
         """Return it in a few words."""
