@@ -110,7 +110,8 @@ def main():
              xlabel='x (m)', ylabel='y (m)', zlabel='z (m)')
     axes.set_box_aspect((2, 2, 0.7), zoom=1.15)
     axes.view_init(18, -62)
-    figure.suptitle('The topic markers: hull, probes (orange dry, blue wet), lift, water', y=0.85)
+    figure.suptitle('The topic markers: hull, probes (orange: little lift, blue: full), lift, '
+                    'water', y=0.85)
     figure.savefig(given.out, dpi=110, bbox_inches='tight')
 
 

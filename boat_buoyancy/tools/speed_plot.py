@@ -46,7 +46,7 @@ def draw(best, path):
     for axes in (left, right):
         axes.minorticks_off()
     title_and_legend(made, 'CPU time of one step of one boat: fleets share the cost of a call, '
-                     'waves cost little more than their cosines', left)
+                     'many waves cost less than their plain cosines', left)
     save(made, path)
 
 
