@@ -59,7 +59,6 @@ def test_every_shipped_scene_is_marked_at_three_rates():
 
 
 def test_the_chart_is_written_as_a_picture(tmp_path, monkeypatch):
-    pytest.importorskip('matplotlib')
     monkeypatch.setitem(stability_chart.GRIDS, True, (6, 4, 60))
     said = []
     path = stability_chart.draw_stability(tmp_path / 'new', quick=True, progress=said.append)

@@ -22,7 +22,7 @@ stays in the cache (measured by ``buoyancy_chart --speed``).
 import numpy as np
 
 from .boat import State
-from .integrators import Motion
+from .motion import Motion
 from .quaternion import normalise, rotation_matrix, to_body, to_world
 
 MOST_BOATS = 4000

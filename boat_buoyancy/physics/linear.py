@@ -68,3 +68,10 @@ def solve_blocks(factors, force, torque):
                              tz - (g * x + h * y + i * z))
     return (x - (p[0] * wx + q[0] * wy + r[0] * wz), y - (p[1] * wx + q[1] * wy + r[1] * wz),
             z - (p[2] * wx + q[2] * wy + r[2] * wz)), (wx, wy, wz)
+
+
+def symmetric_product(matrix, vector):
+    """Return A v of a symmetric 3 x 3 matrix xx, yy, zz, xy, xz, yz."""
+    xx, yy, zz, xy, xz, yz = matrix
+    x, y, z = vector
+    return (xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z)

@@ -120,7 +120,7 @@ class Simulation:
 
     @property
     def motion(self):
-        """Return the `integrators.Motion` of one boat: floats, cheaper to get than `state`."""
+        """Return the `Motion` of one boat: floats, cheaper to get than `state`."""
         motion, = self._motions
         return motion
 
