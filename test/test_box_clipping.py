@@ -52,7 +52,7 @@ def placed(triangles, turn, height):
 def modelled(boat, turn, height):
     """Return volume m^3 and centre of buoyancy (3,) m from the centre of mass, world axes."""
     load = load_at(boat, State([0.0, 0.0, height], turn.as_quat()))
-    lift, moment = buoyancy(System.of(boat, FLEET), load.wetting, load.rotation[8])
+    lift, moment = buoyancy(System.of(boat, FLEET), load.share, load.rotation[8])
     return lift[0] / SPECIFIC_WEIGHT, turn.apply(np.ravel(moment) / lift[0])
 
 

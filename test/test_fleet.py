@@ -124,3 +124,19 @@ def test_fleet_of_one_is_a_fleet():
         single.step()
     assert fleet.state.position.shape == (1, 3) and fleet.probe_depths.shape == (1, 5)
     assert difference(single.state, fleet.state, 0) < 1e-12
+
+
+@pytest.mark.parametrize('law', LAWS)
+def test_a_boat_with_all_probes_wet_moves_as_beside_one_that_is_not(law):
+    # A fleet all wet takes its sums over the probes in one, any other one by the ramps.
+    boat, sea = asymmetric_boat(law), wind_sea()
+    wet = State([[0.0, 0.0, -0.2]] * 2)
+    mixed = State([[0.0, 0.0, -0.2], [0.0, 0.0, 30.0]])
+    fleets = [Simulation(boat, sea, state) for state in (wet, mixed)]
+    for _ in range(20):
+        for fleet in fleets:
+            fleet.step()
+    assert (fleets[0].probe_depths > 0.1 * boat.hull.height).all()
+    for part in ('position', 'orientation', 'velocity', 'angular_velocity'):
+        one, other = (getattr(fleet.state, part)[0] for fleet in fleets)
+        np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-13)

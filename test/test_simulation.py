@@ -261,3 +261,11 @@ def test_motion_past_what_numbers_hold_is_one_clear_error(method, fleet):
             moving.step([1e308, 0.0, 0.0, 0.0, 0.0, 0.0])
     assert same(moving.state, before)
     assert all(np.isfinite(getattr(moving.state, part)).all() for part in PARTS)
+
+
+def test_a_state_out_of_reach_of_the_arithmetic_is_refused_and_changes_nothing():
+    moving = simulation()
+    before = moving.state
+    with pytest.raises(ValueError, match=r'state.position: expected less than 1e\+100 m .*got'):
+        moving.state = State([0.0, -1e200, 0.0])
+    assert same(moving.state, before)

@@ -72,12 +72,11 @@ class Equilibrium:
     def of(cls, boat):
         """Return the system of a `Boat` at the height where it carries its own weight."""
         hull = boat.hull
-        depth = -(rest_state(boat).position[2] + boat.probe_offsets[:, 2:])
-        inverse_height = 1.0 / hull.height[:, None]
-        law = laws.LAWS[hull.law]
-        wetting = law.wetting(ONE_BOAT, inverse_height, depth, 1.0)
-        slope = law.slope(ONE_BOAT, inverse_height, wetting, depth, 1.0)[:, 0]
-        wet, lift = wetting.fraction[:, 0], hull.max_force * wetting.share[:, 0]
+        depth = -(rest_state(boat).position[2] + boat.probe_offsets[:, 2])
+        law, heights = laws.LAWS[hull.law], laws.Heights.of(hull, ONE_BOAT)
+        wet, share = law.wetting(ONE_BOAT, heights, depth, 1.0)
+        slope = law.slope(ONE_BOAT, heights, share, depth, 1.0)
+        lift = hull.max_force * share
         above = boat.probe_offsets[:, 2]
         if law.has_arm:
             above = above + 0.5 * hull.height * wet

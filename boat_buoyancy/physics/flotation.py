@@ -156,7 +156,7 @@ def _wetness(boat, level, tilt):
     heave, roll, pitch = tilt
     state = State(level.position + [0.0, 0.0, heave],
                   np.stack(from_roll_pitch_yaw(roll, pitch, 0.0)))
-    return hydrostatics.load_at(boat, state).wetting.share[:, 0]
+    return hydrostatics.load_at(boat, state).share[:, 0]
 
 
 def _named(boat, chosen):

@@ -34,6 +34,8 @@ from .rotation import free_rotation
 # Damping ramps in over this part of a probe's height: a jump at entry would leave every step
 # method at first order.
 RAMP = 0.1
+# A mean wetness that is 1 but for round-off.
+WET = 1.0 - 1e-13
 STILL = (0.0, 0.0, 0.0)
 
 
@@ -54,14 +56,14 @@ class Load(NamedTuple):
     """
     Everything a kick needs to know of one place and time.
 
-    ``rotation`` (9) body to world; ``depth`` (n, B) m; ``wetting``; ``force`` N and ``torque``
-    N m: buoyancy, gravity and the pull of moving water; ``damping``; ``submersion`` the weighted
+    ``rotation`` (9) body to world; ``depth`` m of each probe and ``share`` of its maximum
+    force; ``force`` N and ``torque`` N m: buoyancy, gravity and the pull of moving water; ``damping``; ``submersion`` the weighted
     mean wetness 0 to 1; ``water_velocity`` (3) m/s, the probes' mean, body axes.
     """
 
     rotation: tuple
     depth: np.ndarray
-    wetting: laws.Wetting
+    share: np.ndarray
     force: tuple
     torque: tuple
     damping: DampingMatrix
@@ -75,48 +77,46 @@ class ProbeArrays:
     What the forces multiply: a boat's constants as arrays over its n probes.
 
     Rows are weights of sums over the probes; those of damping hold 1 / RAMP, so that a fraction
-    cut off at RAMP is all the ramp they need.
+    cut off at ``ramp``, which is RAMP for each probe, is all the ramp they need.
     """
 
     homogeneous: np.ndarray
-    inverse_height: np.ndarray
+    heights: laws.Heights
+    ramp: np.ndarray
     lift_rows: np.ndarray
     arm_row: np.ndarray
+    above: np.ndarray
     half_height: np.ndarray
     stiffness_rows: np.ndarray
     damping_rows: np.ndarray
     drag_rows: np.ndarray
+    wet_rows: np.ndarray
     share: np.ndarray
 
     @classmethod
-    def of(cls, boat):
-        """Return the arrays of a `Boat`."""
+    def of(cls, boat, backend):
+        """Return the arrays of a `Boat` for one boat or a fleet."""
         hull, share = boat.hull, boat.hull.share
         x, y, z = boat.probe_offsets.T
         one = np.ones(len(share))
         drag = boat.damping.probe * share
         return cls(
-            homogeneous=np.stack([x, y, z, one], axis=1),
-            inverse_height=1.0 / hull.height[:, None],
+            homogeneous=np.stack([x, y, z, one]),
+            heights=laws.Heights.of(hull, backend), ramp=backend.per_probe(RAMP * one),
             lift_rows=hull.max_force * np.stack([x, y, z, one, hull.height]),
             arm_row=hull.max_force * hull.height[None, :] / 2.0,
-            half_height=hull.height[:, None] / 2.0,
+            above=backend.per_probe(z), half_height=backend.per_probe(hull.height / 2.0),
             stiffness_rows=hull.max_force * np.stack([one, x, y, x * x, y * y, x * y]),
             damping_rows=np.stack([share, *(drag * np.stack([
                 one, x, y, z, y * y + z * z, x * x + z * z, x * x + y * y,
                 -x * y, -x * z, -y * z]))]) / RAMP,
-            drag_rows=drag * np.stack([one, x, y, z]) / RAMP,
+            # By columns in memory: one boat multiplies their transpose.
+            drag_rows=np.asfortranarray(drag * np.stack([one, x, y, z]) / RAMP),
+            wet_rows=np.asfortranarray(np.stack([share, drag, drag * x, drag * y, drag * z])),
             share=share[None, :])
 
 
-def probe_points(system, position, rotation):
-    """Return the probes in world axes, (3, n, B) m; one matrix product for the whole fleet."""
-    a, b, c, d, e, f, g, h, i = rotation
-    x, y, z = position
-    return system.backend.place(system.arrays.homogeneous, (a, b, c, x, d, e, f, y, g, h, i, z))
-
-
-def buoyancy(system, wetting, upright):
+def buoyancy(system, share, upright):
     """
     Return the lift in N, straight up in the world, and its first moment (3) N m in body axes.
 
@@ -124,7 +124,6 @@ def buoyancy(system, wetting, upright):
     the middle of its wet part, which upside down hangs from the top end.
     """
     backend, arrays = system.backend, system.arrays
-    share = wetting.share
     x, y, z, lift, from_top = backend.components(arrays.lift_rows.dot(share))
     if system.law.has_arm:
         raised, = backend.components(arrays.arm_row.dot(share * share))
@@ -136,11 +135,12 @@ def probe_damping(backend, arrays, ramp):
     """
     Return the weighted mean wetness, and the probes' part of the `DampingMatrix`.
 
-    ``ramp`` (n, B) is each probe's wetness, 0 to RAMP.  Probe i gives -c_i s_i (v + w x r_i).  The
+    ``ramp`` is each probe's wetness, 0 to RAMP.  Probe i gives -c_i s_i (v + w x r_i).  The
     force block is c times the unit matrix: returns wetness, c, coupling (3), torque block (6).
     """
-    submersion, c, sx, sy, sz, *angular = backend.components(arrays.damping_rows.dot(ramp))
-    return submersion, c, (sx, sy, sz), angular
+    submersion, c, sx, sy, sz, xx, yy, zz, xy, xz, yz = backend.components(
+        arrays.damping_rows.dot(ramp))
+    return submersion, c, (sx, sy, sz), (xx, yy, zz, xy, xz, yz)
 
 
 def mixed(damping, submersion):
@@ -155,17 +155,23 @@ def mixed(damping, submersion):
             g + submersion * gw, h + submersion * hw, i + submersion * iw)
 
 
-def orbital_drag(backend, arrays, ramp, orbital, rotation):
+def orbital_drag(backend, arrays, ramp, submersion, orbital, rotation):
     """
     Return force, torque and mean velocity that the orbital motion of waves gives the probes.
 
-    ``ramp`` as in `probe_damping`; ``orbital`` (3, n, B) m/s in world axes.  Sums c_i s_i w_i and
-    c_i s_i r_i x w_i.
+    ``ramp`` and ``submersion`` as in `probe_damping`; ``orbital`` m/s of each probe in world
+    axes.  Sums c_i s_i w_i and c_i s_i r_i x w_i.
     """
-    x, y, z = backend.over_probes(arrays.share, orbital)
-    (fx, mxx, myx, mzx,
-     fy, mxy, myy, mzy,
-     fz, mxz, myz, mzz) = backend.over_probes(arrays.drag_rows, ramp * orbital)
+    if backend.any(submersion < WET):
+        (x,), (y,), (z,) = backend.over_probes(arrays.share, orbital)
+        ((fx, mxx, myx, mzx),
+         (fy, mxy, myy, mzy),
+         (fz, mxz, myz, mzz)) = backend.over_probes(arrays.drag_rows, ramp * orbital)
+    else:
+        # As most of the time: no probe on its ramp, and one sum gives all.
+        ((x, fx, mxx, myx, mzx),
+         (y, fy, mxy, myy, mzy),
+         (z, fz, mxz, myz, mzz)) = backend.over_probes(arrays.wet_rows, orbital)
     # First moments of the pull, place in body axes by pull in world axes; the torque needs the
     # pull's components across each lever only.
     a, b, c, d, e, f, g, h, i = rotation
@@ -212,7 +218,7 @@ class System:
 
         quadratic = tuple(boat.damping.quadratic.tolist())
         return cls(
-            backend=backend, arrays=ProbeArrays.of(boat), law=laws.LAWS[boat.hull.law],
+            backend=backend, arrays=ProbeArrays.of(boat, backend), law=laws.LAWS[boat.hull.law],
             rotate=free_rotation(boat), mass=boat.mass, weight=boat.weight,
             inertia=tuple(float(boat.mass_matrix[i]) for i in torque_block),
             body_damping=air_and_more(with_linear), retention=air_and_more(water),
@@ -228,20 +234,20 @@ def evaluate(system, sea, position, orientation, time):
     """
     backend, arrays = system.backend, system.arrays
     rotation = rotation_matrix(orientation)
-    up = rotation[6:]
-    points = probe_points(system, position, rotation)
+    ux, uy, uz = up = rotation[6:]
+    points = backend.place(arrays.homogeneous, rotation, position, time)
     sea = sea.at(time)
     if sea.is_flat:
         depth = -points[2]
     else:
         surface = sea.surface(points, time)
         depth = surface[0] - points[2]
-    wetting = system.law.wetting(backend, arrays.inverse_height, depth, up[2])
-    ramp = np.minimum(wetting.fraction, RAMP)
+    fraction, share = system.law.wetting(backend, arrays.heights, depth, uz)
+    ramp = np.minimum(fraction, arrays.ramp)
 
-    lift, moment = buoyancy(system, wetting, up[2])
+    lift, moment = buoyancy(system, share, uz)
     net = lift - system.weight
-    fx, fy, fz = net * up[0], net * up[1], net * up[2]
+    fx, fy, fz = net * ux, net * uy, net * uz
     tx, ty, tz = cross(moment, up)
 
     submersion, c, coupling, angular = probe_damping(backend, arrays, ramp)
@@ -252,14 +258,15 @@ def evaluate(system, sea, position, orientation, time):
 
     water = STILL
     if not sea.is_flat:
-        pull, twist, water = orbital_drag(backend, arrays, ramp, surface[1:], rotation)
-        fx, fy, fz = (fx + pull[0] + ax * water[0], fy + pull[1] + ay * water[1],
-                      fz + pull[2] + az * water[2])
-        tx, ty, tz = tx + twist[0], ty + twist[1], tz + twist[2]
+        (px, py, pz), (sx, sy, sz), water = orbital_drag(
+            backend, arrays, ramp, submersion, surface[1:], rotation)
+        wx, wy, wz = water
+        fx, fy, fz = fx + px + ax * wx, fy + py + ay * wy, fz + pz + az * wz
+        tx, ty, tz = tx + sx, ty + sy, tz + sz
     if sea.drift is not None:
         x, y, z = to_body(rotation, sea.drift)
         lever = cross(coupling, (x, y, z))
         fx, fy, fz = fx + (ax + c) * x, fy + (ay + c) * y, fz + (az + c) * z
         tx, ty, tz = tx + lever[0], ty + lever[1], tz + lever[2]
         water = (water[0] + x, water[1] + y, water[2] + z)
-    return Load(rotation, depth, wetting, (fx, fy, fz), (tx, ty, tz), damping, submersion, water)
+    return Load(rotation, depth, share, (fx, fy, fz), (tx, ty, tz), damping, submersion, water)

@@ -98,7 +98,7 @@ def _floating_height(boat, orientation):
     for _ in range(ROUNDS):
         height = low + part * (high - low)
         load = evaluate(system, STILL_WATER, (still, still, height.ravel()), orientation, 0.0)
-        lift = (boat.hull.max_force @ load.wetting.share).reshape(height.shape)
+        lift = (boat.hull.max_force @ load.share).reshape(height.shape)
         carried = np.clip((lift >= less).sum(axis=0), 1, PARTS)
         low, high = (np.take_along_axis(height, index[None], axis=0)[0]
                      for index in (carried - 1, carried))

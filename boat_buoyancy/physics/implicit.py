@@ -31,12 +31,12 @@ def lift_stiffness(system, load):
     To it comes the pendulum of a boat hung below its points of force, sum F_i p_i.up, when that
     is positive.
     """
-    backend, arrays, wetting = system.backend, system.arrays, load.wetting
+    backend, arrays, share = system.backend, system.arrays, load.share
     ux, uy, uz = up = load.rotation[6:]
-    slope = system.law.slope(backend, arrays.inverse_height, wetting, load.depth, uz)
-    height = arrays.homogeneous[:, 2:3]
+    slope = system.law.slope(backend, arrays.heights, share, load.depth, uz)
+    height = arrays.above
     if system.law.has_arm:
-        half = arrays.half_height * wetting.share
+        half = arrays.half_height * share
         height = height + backend.where(uz > 0.0, half, 2.0 * arrays.half_height - half)
     raised = slope * height
     k, x, y, xx, yy, xy = backend.components(arrays.stiffness_rows.dot(slope))
@@ -47,7 +47,7 @@ def lift_stiffness(system, load):
     ax, ay, az = cross((xx, xy, xz), up)
     bx, by, bz = cross((xy, yy, yz), up)
     cx, cy, cz = cross((xz, yz, zz), up)
-    _, (mx, my, mz) = buoyancy(system, wetting, uz)
+    _, (mx, my, mz) = buoyancy(system, share, uz)
     swing = backend.maximum(mx * ux + my * uy + mz * uz, 0.0)
     return ((k * ux * ux, k * uy * uy, k * uz * uz, k * ux * uy, k * ux * uz, k * uy * uz),
             (lx * ux, lx * uy, lx * uz, ly * ux, ly * uy, ly * uz, lz * ux, lz * uy, lz * uz),

@@ -127,6 +127,8 @@ def crank_nicolson(system, load, factors, thrust, velocity, angular_velocity, dt
 
 
 def _kicked(damping, force, torque, factors, thrust, velocity, angular_velocity, dt):
-    linear, angular = solve(factors, *net_wrench(
-        damping, force, torque, thrust, velocity, angular_velocity))
-    return advance(velocity, linear, dt), advance(angular_velocity, angular, dt)
+    force, torque = net_wrench(damping, force, torque, thrust, velocity, angular_velocity)
+    (ax, ay, az), (p, q, r) = solve(factors, force, torque)
+    x, y, z = velocity
+    u, v, w = angular_velocity
+    return ((x + dt * ax, y + dt * ay, z + dt * az), (u + dt * p, v + dt * q, w + dt * r))

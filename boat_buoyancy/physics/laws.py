@@ -25,15 +25,30 @@ import numpy as np
 MIN_UPRIGHT = 0.05
 
 
-class Wetting(NamedTuple):
+class Heights(NamedTuple):
     """
-    How wet each probe is; every array is (n, B).
+    The heights of a boat's probes, in the form that the laws use.
 
-    ``fraction`` of its height under water, 0 to 1; ``share`` of its maximum force.
+    ``inverse`` 1/m, a float where all are equal; ``dry`` and ``full``, 0 and 1 for each probe:
+    NumPy takes an array faster than a number that it has to turn into one.
     """
 
-    fraction: np.ndarray
-    share: np.ndarray
+    inverse: object
+    dry: np.ndarray
+    full: np.ndarray
+
+    @classmethod
+    def of(cls, hull, backend):
+        """Return the heights of a `Hull`."""
+        height = hull.height
+        return cls(1.0 / float(height[0]) if (height == height[0]).all()
+                   else backend.per_probe(1.0 / height),
+                   backend.per_probe(np.zeros(len(height))),
+                   backend.per_probe(np.ones(len(height))))
+
+    def clipped(self, fraction):
+        """Return fractions of the height, clipped to 0 and 1."""
+        return np.minimum(np.maximum(fraction, self.dry), self.full)
 
 
 @dataclass(frozen=True)
@@ -41,11 +56,13 @@ class Law:
     """
     A probe law.
 
-    ``wetting`` (backend, inverse_height, depth, upright) -> `Wetting`, with ``inverse_height``
-    (n, 1) 1/m, ``depth`` (n, B) m under the surface and ``upright`` the cosine between body z
-    and world z; ``slope`` (backend, inverse_height, wetting, depth, upright) -> (n, B) 1/m, the
-    change of share with the height of the surface; ``has_arm``: the force acts at the middle of
-    the wet part of a column that stands on the probe, not at the probe.
+    ``wetting`` (backend, heights, depth, upright) -> (fraction, share), for each probe the part
+    of its height under water, 0 to 1, and the part of its maximum force that it gives; with
+    ``heights`` the boat's `Heights`, ``depth`` m of each probe under the surface and ``upright``
+    the cosine between body z and world z; ``slope`` (backend, heights, share, depth, upright)
+    -> 1/m, the change of each probe's share with the height of the surface; ``has_arm``: the
+    force acts at the middle of the wet part of a column that stands on the probe, not at the
+    probe.
     """
 
     wetting: Callable
@@ -53,44 +70,45 @@ class Law:
     has_arm: bool = False
 
 
-def spring(backend, inverse_height, depth, upright):
-    """Return the `Wetting` of a capped spring at the probe."""
-    fraction = np.minimum(np.maximum(depth * inverse_height, 0.0), 1.0)
-    return Wetting(fraction, fraction)
+def spring(backend, heights, depth, upright):
+    """Return fraction and share of a capped spring at the probe."""
+    fraction = heights.clipped(depth * heights.inverse)
+    return fraction, fraction
 
 
-def spring_slope(backend, inverse_height, wetting, depth, upright):
+def spring_slope(backend, heights, share, depth, upright):
     """Return the slope of a capped spring: 0 where the probe is dry or full."""
-    return ((wetting.share > 0.0) & (wetting.share < 1.0)) * inverse_height
+    return ((share > heights.dry) & (share < heights.full)) * heights.inverse
 
 
-def soft(backend, inverse_height, depth, upright):
-    """Return the `Wetting` of a spring that saturates smoothly, 1 - exp(-depth / height)."""
-    submerged = np.maximum(depth * inverse_height, 0.0)
-    return Wetting(np.minimum(submerged, 1.0), -np.expm1(-submerged))
+def soft(backend, heights, depth, upright):
+    """Return fraction and share of a spring that saturates smoothly, 1 - exp(-depth / height)."""
+    submerged = np.maximum(depth * heights.inverse, heights.dry)
+    return np.minimum(submerged, heights.full), -np.expm1(-submerged)
 
 
-def soft_slope(backend, inverse_height, wetting, depth, upright):
+def soft_slope(backend, heights, share, depth, upright):
     """Return the slope of a spring that saturates smoothly."""
-    return (depth > 0.0) * (1.0 - wetting.share) * inverse_height
+    return (depth > heights.dry) * (heights.full - share) * heights.inverse
 
 
-def column(backend, inverse_height, depth, upright):
+def column(backend, heights, depth, upright):
     """
-    Return the `Wetting` of a column of hull that stands on the probe along body z.
+    Return fraction and share of a column of hull that stands on the probe along body z.
 
     Upside down the wet part is measured from the top end; the surface is taken above the bottom.
     """
     stretch = 1.0 / backend.maximum(abs(upright), MIN_UPRIGHT)
-    below_bottom = backend.maximum(-upright, 0.0) * stretch
-    fraction = np.minimum(
-        np.maximum(depth * inverse_height * stretch + below_bottom, 0.0), 1.0)
-    return Wetting(fraction, fraction)
+    wet = depth * (heights.inverse * stretch)
+    if backend.any(upright < 0.0):
+        wet = wet + backend.maximum(-upright, 0.0) * stretch
+    fraction = heights.clipped(wet)
+    return fraction, fraction
 
 
-def column_slope(backend, inverse_height, wetting, depth, upright):
+def column_slope(backend, heights, share, depth, upright):
     """Return the slope of a column: 0 where it is dry or full."""
-    return spring_slope(backend, inverse_height, wetting, depth, upright) * (
+    return spring_slope(backend, heights, share, depth, upright) * (
         1.0 / backend.maximum(abs(upright), MIN_UPRIGHT))
 
 

@@ -28,14 +28,14 @@ import numpy as np
 from .quaternion import conjugate, multiply, normalise, rotation_matrix, to_body, to_world
 
 
-def _turn(backend, half, a, b, c, w, mb, mc):
+def _turn(sin, cos, half, a, b, c, w, mb, mc):
     """
     Turn about the axis a by twice ``half``.
 
     a, b, c, w is the quaternion, mb and mc the momentum about the other two axes; the same six
     are returned after the turn.
     """
-    s, k = backend.sin(half), backend.cos(half)
+    s, k = sin(half), cos(half)
     sine, cosine = 2.0 * s * k, 1.0 - 2.0 * s * s
     return (a * k + w * s, b * k + c * s, c * k - b * s, w * k - a * s,
             cosine * mb + sine * mc, cosine * mc - sine * mb)
@@ -46,11 +46,12 @@ def _five_turns(backend, orientation, momentum, h, moments):
     (a, b, c, w), (ma, mb, mc) = orientation, momentum
     about_a, about_b, about_c = (0.25 * h / moments[0], 0.25 * h / moments[1],
                                  0.5 * h / moments[2])
-    a, b, c, w, mb, mc = _turn(backend, about_a * ma, a, b, c, w, mb, mc)
-    b, c, a, w, mc, ma = _turn(backend, about_b * mb, b, c, a, w, mc, ma)
-    c, a, b, w, ma, mb = _turn(backend, about_c * mc, c, a, b, w, ma, mb)
-    b, c, a, w, mc, ma = _turn(backend, about_b * mb, b, c, a, w, mc, ma)
-    a, b, c, w, mb, mc = _turn(backend, about_a * ma, a, b, c, w, mb, mc)
+    sin, cos = backend.sin, backend.cos
+    a, b, c, w, mb, mc = _turn(sin, cos, about_a * ma, a, b, c, w, mb, mc)
+    b, c, a, w, mc, ma = _turn(sin, cos, about_b * mb, b, c, a, w, mc, ma)
+    c, a, b, w, ma, mb = _turn(sin, cos, about_c * mc, c, a, b, w, ma, mb)
+    b, c, a, w, mc, ma = _turn(sin, cos, about_b * mb, b, c, a, w, mc, ma)
+    a, b, c, w, mb, mc = _turn(sin, cos, about_a * ma, a, b, c, w, mb, mc)
     return (a, b, c, w), (ma, mb, mc)
 
 

@@ -17,7 +17,7 @@
 import numpy as np
 
 from . import blocks, checks, integrators
-from .backend import FLEET, ONE_BOAT
+from .backend import FARTHEST, FLEET, ONE_BOAT
 from .forces import System
 from .guard import Guard
 
@@ -109,14 +109,13 @@ class Simulation:
     @property
     def probe_depths(self):
         """Return (..., probes) m under water, in parameter order, at the time of `state`."""
-        depths = np.concatenate([memory.load.depth for memory in self._memories], axis=1)
-        return depths.T.reshape(*self._batch, -1)
+        return self._per_probe([memory.load.depth for memory in self._memories])
 
     @property
     def probe_forces(self):
         """Return (..., probes) N, the lift of each probe, straight up, at the time of `state`."""
-        shares = np.concatenate([memory.load.wetting.share for memory in self._memories], axis=1)
-        return shares.T.reshape(*self._batch, -1) * self._boat.hull.max_force
+        shares = self._per_probe([memory.load.share for memory in self._memories])
+        return shares * self._boat.hull.max_force
 
     @property
     def motion(self):
@@ -131,7 +130,6 @@ class Simulation:
         self._steps = 0
         self._prepare(motions, self._boat, self._sea)
 
-    @np.errstate(all='ignore')
     def step(self, thrust=None):
         """
         Advance 1/rate s.
@@ -141,6 +139,14 @@ class Simulation:
         finite or of another shape; SimulationError when the motion leaves what physics allows.
         Neither changes anything.
         """
+        if self._batch:
+            with np.errstate(all='ignore'):
+                self._step(thrust)
+        else:
+            # Floats warn of nothing, and setting NumPy's warnings costs as much as four calls.
+            self._step(thrust)
+
+    def _step(self, thrust):
         wrench = NO_THRUST if thrust is None else self._wrench(thrust)
         parts = (wrench,) if len(self._motions) == 1 else blocks.of_blocks(wrench, self._block)
         advance, system, sea = self._method.step, self._system, self._sea
@@ -160,6 +166,10 @@ class Simulation:
             raise self._left(thrust, motions)
         self._motions, self._memories = motions, memories
         self._steps += 1
+
+    def _per_probe(self, parts):
+        """Return (..., probes) of what each block has for each probe."""
+        return np.concatenate(parts, axis=-1).T.reshape(*self._batch, -1)
 
     def _prepare(self, motions, boat, sea):
         """Take boat and sea and compute the loads of the motions; on an error change nothing."""
@@ -217,6 +227,9 @@ class Simulation:
         arrays = (state.position, state.orientation, state.velocity, state.angular_velocity)
         if not all(np.isfinite(values).all() for values in arrays):
             raise ValueError(f'state: expected finite numbers, got {state}')
+        if (np.abs(state.position) >= FARTHEST).any():
+            raise ValueError(f'state.position: expected less than {FARTHEST:g} m from the origin, '
+                             f'got {state.position.tolist()}')
         if not (np.abs((state.orientation ** 2).sum(axis=-1) - 1.0) < 1e-3).all():
             raise ValueError('state.orientation: expected unit quaternions, '
                              f'got {state.orientation.tolist()}')

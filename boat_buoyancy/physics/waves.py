@@ -159,58 +159,69 @@ class Sea:
                 np.stack([zero, zero, zero, speed]))
 
     @cached_property
+    def _angle_rows(self):
+        """Return (W, 5), what x, y, z, 1 and t contribute to the angle of each wave."""
+        return np.column_stack([self.wave_vector, np.zeros(len(self.waves)), self.waves[:, 3],
+                                -self.angular_frequency])
+
+    @cached_property
     def _cosine_table(self):
         """
-        Return wave vectors, frequencies, phases and responses for `surface` of a few points.
+        Return rows of angles and responses for `surface` of a few points.
 
         Every wave stands twice, as cos(theta) and as cos(theta - pi/2) = sin(theta), so that one
         cosine and one matrix product give elevation and velocity together.
         """
-        phase = self.waves[:, 3]
-        return (np.vstack([self.wave_vector] * 2), np.tile(self.angular_frequency, 2)[:, None],
-                np.concatenate([phase, phase - np.pi / 2])[:, None],
-                np.concatenate(self._responses, axis=1))
+        late = self._angle_rows - [0.0, 0.0, 0.0, np.pi / 2, 0.0]
+        return np.vstack([self._angle_rows, late]), np.concatenate(self._responses, axis=1)
 
     @cached_property
     def _tangent_table(self):
         """
-        Return half of wave vectors, frequencies and phases, responses and offset for many points.
+        Return rows of half the angles, responses and offset for `surface` of many points.
 
         With t = tan(theta/2) and r = 1 / (1 + t^2), cos(theta) = 2 r - 1 and sin(theta) = 2 r t.
         """
         per_cosine, per_sine = self._responses
-        return (self.wave_vector / 2.0, self.angular_frequency[:, None] / 2.0,
-                self.waves[:, 3:] / 2.0, 2.0 * np.concatenate([per_cosine, per_sine], axis=1),
+        return (self._angle_rows / 2.0, 2.0 * np.concatenate([per_cosine, per_sine], axis=1),
                 per_cosine.sum(axis=1, keepdims=True))
 
     def surface(self, points, time):
         """
         Return elevation and water velocity at many points, for the step.
 
-        ``points`` (3, n, B) m, world axes; ``time`` s.  Returns (4, n, B): elevation m, then
-        the velocity of `velocity` without the current.
+        ``points`` m, world axes, and ``time`` s as `Backend.place` gives them: (3, n, B) for a
+        fleet, (5, n) with rows of ones and of the time for one boat.  Returns (4, n, B) or
+        (4, n): elevation m, then the velocity of `velocity` without the current.
         """
-        _, count, boats = points.shape
-        places = points[:2].reshape(2, -1)
-        # What depends on time alone is added once, not once a probe.
-        if len(self.waves) * places.shape[1] < MANY_ANGLES:
-            wave_vector, angular_frequency, phase, response = self._cosine_table
-            angle = wave_vector.dot(places)
-            angle += phase - angular_frequency * time
+        count = points.size // len(points)
+        if len(self.waves) * count < MANY_ANGLES:
+            rows, response = self._cosine_table
+            angle = _angles(rows, points, time)
             np.cos(angle, angle)
-            return response.dot(angle).reshape(4, count, boats)
-        wave_vector, angular_frequency, phase, response, offset = self._tangent_table
-        waves = len(phase)
-        terms = np.empty((2 * waves, places.shape[1]))
+            surface = response.dot(angle)
+            return surface if points.ndim == 2 else surface.reshape(4, *points.shape[1:])
+        rows, response, offset = self._tangent_table
+        waves = len(rows)
+        terms = np.empty((2 * waves, count))
         reciprocal, tangent = terms[:waves], terms[waves:]
-        np.dot(wave_vector, places, out=tangent)
-        tangent += phase - angular_frequency * time
+        _angles(rows, points, time, tangent)
         np.tan(tangent, tangent)
         np.multiply(tangent, tangent, reciprocal)
         reciprocal += 1.0
         np.reciprocal(reciprocal, reciprocal)
         tangent *= reciprocal
-        return (response.dot(terms) - offset).reshape(4, count, boats)
+        return (response.dot(terms) - offset).reshape(4, *points.shape[1:])
+
+
+def _angles(rows, points, time, out=None):
+    """Return the angles (rows, points) of `Sea.surface`."""
+    if points.ndim == 2:
+        return rows.dot(points, out)
+    # Over a fleet, what depends on time alone is added once, not once a probe.
+    angle = rows[:, :2].dot(points[:2].reshape(2, -1), out)
+    angle += rows[:, 3:4] + rows[:, 4:] * time
+    return angle
 
 
 def checked_waves(rows):

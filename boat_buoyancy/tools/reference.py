@@ -104,7 +104,7 @@ class Equations:
         heel from which it counts as lying; with quadratic drag, every reversal of speed.
         """
         values, _, load = self._load(time, values)
-        height, wet = self.system.boat.hull.height, load.depth[:, 0]
+        height, wet = self.system.boat.hull.height, load.depth
         attitude = []
         if self.system.boat.hull.law == 'column':
             upright = load.rotation[8]
