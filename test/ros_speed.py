@@ -17,7 +17,7 @@ Measure what the node costs, and write doc/ros_speed.md.
 
     python test/ros_speed.py [--seconds 10] [--out doc/ros_speed.md]
 
-CPU time is that of the node's process alone, from /proc; subscribers are in another process.
+CPU time is that of the node's process alone; subscribers are in another process.
 """
 
 import argparse
@@ -125,6 +125,48 @@ rclpy.spin(node)
 """
 
 
+# One message a period in three ways, in turn; prints the us of each.
+PUBLISH = """
+import sys, time
+import rclpy
+from geometry_msgs.msg import PoseStamped
+from rclpy.node import Node
+from boat_buoyancy.ros.messages import pose_of, set_quaternion, set_vector, stamp_of
+from boat_buoyancy.ros.template import Template
+rclpy.init()
+node, rate = Node('boat_buoyancy'), float(sys.argv[1])
+publisher = node.create_publisher(PoseStamped, 'pose', 10)
+kept = PoseStamped()
+template = Template(kept)
+stamp, pose = stamp_of(template, kept.header.stamp), pose_of(template, kept.pose)
+numbers = (1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0)
+def fill(message):
+    message.header.stamp.sec, message.header.stamp.nanosec = 1, 2
+    set_vector(message.pose.position, numbers[:3])
+    set_quaternion(message.pose.orientation, numbers[3:])
+    publisher.publish(message)
+def written():
+    stamp(1, 2)
+    pose(*numbers)
+    publisher.publish(template.content())
+ways = (lambda: fill(PoseStamped()), lambda: fill(kept), written)
+spent, count = [0, 0, 0], int(float(sys.argv[2]) * rate)
+while not publisher.get_subscription_count():
+    time.sleep(0.1)
+start = time.monotonic()
+for i in range(3 * count):
+    time.sleep(max(0.0, start + i / rate - time.monotonic()))
+    began = time.thread_time_ns()
+    ways[i % 3]()
+    spent[i % 3] += time.thread_time_ns() - began
+print(*(ns / count / 1e3 for ns in spent))
+"""
+LOOPS = {'own loop, EventsExecutor (shipped)': SHIPPED,
+         'own loop, SingleThreadedExecutor': SINGLE,
+         'own thread, SingleThreadedExecutor': THREAD,
+         'timer, new messages, rclpy.spin': PLAIN}
+
+
 class Running:
     """A node and a listener in processes of their own, while one measures."""
 
@@ -143,9 +185,9 @@ class Running:
 
     def cpu(self):
         """Return the CPU time in s that the node has taken."""
-        with open(f'/proc/{self._node.pid}/stat') as file:
-            fields = file.read().rsplit(')', 1)[1].split()
-        return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+        # The number that Linux gives to the CPU clock of another process: /proc counts in ticks
+        # of 10 ms.
+        return time.clock_gettime(~self._node.pid << 3 | 2)
 
     def __enter__(self):
         """Return itself."""
@@ -212,6 +254,19 @@ def latency(rate, count):
     return np.array(found)
 
 
+def publishing(rate, seconds):
+    """Return the us of a new message, of one filled again, and of bytes written over."""
+    namespace = new_namespace()
+    listener = subprocess.Popen([sys.executable, '-c', LISTENER, namespace, 'pose'], cwd=HERE,
+                                stdout=subprocess.DEVNULL)
+    found = subprocess.run(
+        [sys.executable, '-c', PUBLISH, str(rate), str(seconds), '--ros-args', '-r',
+         f'__ns:={namespace}'], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    listener.kill()
+    listener.wait()
+    return [float(value) for value in found.stdout.split()]
+
+
 def table(head, rows):
     """Return lines of a Markdown table."""
     return ['| ' + ' | '.join(head) + ' |', '|' + '---|' * len(head),
@@ -239,14 +294,18 @@ def measure(seconds):
     yield from ('## By executor and loop, all default outputs', '')
     rows = []
     for rate in (100.0, 1000.0):
-        for name, code in (
-                ('own loop, EventsExecutor (shipped)', SHIPPED),
-                ('own loop, SingleThreadedExecutor', SINGLE),
-                ('own thread, SingleThreadedExecutor', THREAD),
-                ('timer, new messages, rclpy.spin', PLAIN)):
-            share = load(code, rate, OUTPUTS, seconds)
-            rows.append((f'{rate:g} Hz', name, f'{share:.1%}', f'{share / rate * 1e6:.0f}'))
-    yield from table(('rate', 'node', 'core', 'us per period'), rows)
+        # In turn and twice, the better counts: other work on the machine can only add.
+        shares = [[load(code, rate, OUTPUTS, seconds) for code in LOOPS.values()]
+                  for _ in range(2)]
+        best = np.min(shares, axis=0)
+        rows += [(f'{rate:g} Hz', name, f'{share:.1%}', f'{share / rate * 1e6:.0f}',
+                  f'{share / best[-1]:.2f}') for name, share in zip(LOOPS, best)]
+    yield from table(('rate', 'node', 'core', 'us per period', 'over the last'), rows)
+    yield from ('## Sending one PoseStamped to one subscriber, us', '')
+    yield from table(('rate', 'new message', 'message filled again',
+                      'bytes written over (shipped)'),
+                     [(f'{rate:g} Hz', *(f'{value:.0f}' for value in publishing(rate, seconds)))
+                      for rate in (100.0, 1000.0)])
     yield from ('## Rate held, all default outputs', '')
     rows = []
     for rate in RATES:

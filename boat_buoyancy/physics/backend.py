@@ -34,7 +34,7 @@ class Backend:
     """
     The functions that differ between floats and arrays.
 
-    ``where(condition, a, b)`` chooses by component and ``any(condition)`` tells whether it holds
+    ``where(condition, a, b)`` chooses by component and ``holds(condition)`` tells whether it holds
     for any boat; ``components`` turns an array (k,) or (k, B) into k components, and ``column`` a
     tuple of k components into (k, B); ``per_probe`` shapes constants (n,) to go with what each
     probe has; ``over_probes(rows, vectors)`` sums vectors (3, n) or (3, n, B) with weights (k, n)
@@ -48,14 +48,12 @@ class Backend:
     sqrt: Callable
     maximum: Callable
     where: Callable
-    any: Callable
+    holds: Callable
     components: Callable
     column: Callable
     per_probe: Callable
     over_probes: Callable
     place: Callable
-
-
 
 
 # No boat is farther away, in m; below, nothing that is computed of one can overflow.
@@ -80,14 +78,14 @@ def _place_fleet(points, rotation, position, time):
 
 ONE_BOAT = Backend(
     sin=math.sin, cos=math.cos, sqrt=math.sqrt, maximum=max,
-    where=lambda condition, a, b: a if condition else b, any=bool,
+    where=lambda condition, a, b: a if condition else b, holds=bool,
     components=np.ndarray.tolist,
     column=lambda values: np.array(values).reshape(-1, 1), per_probe=np.array,
     # For matrices this small, dot takes half the time of matmul.
     over_probes=lambda rows, vectors: vectors.dot(rows.T).tolist(), place=_place_one)
 
 FLEET = Backend(
-    sin=np.sin, cos=np.cos, sqrt=np.sqrt, maximum=np.maximum, where=np.where, any=np.any,
+    sin=np.sin, cos=np.cos, sqrt=np.sqrt, maximum=np.maximum, where=np.where, holds=np.any,
     components=tuple, column=lambda values: np.stack(np.broadcast_arrays(*values)),
     per_probe=lambda values: np.array(values)[:, None],
     over_probes=lambda rows, vectors: rows @ vectors, place=_place_fleet)

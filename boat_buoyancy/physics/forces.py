@@ -57,8 +57,9 @@ class Load(NamedTuple):
     Everything a kick needs to know of one place and time.
 
     ``rotation`` (9) body to world; ``depth`` m of each probe and ``share`` of its maximum
-    force; ``force`` N and ``torque`` N m: buoyancy, gravity and the pull of moving water; ``damping``; ``submersion`` the weighted
-    mean wetness 0 to 1; ``water_velocity`` (3) m/s, the probes' mean, body axes.
+    force; ``force`` N and ``torque`` N m: buoyancy, gravity and the pull of moving water;
+    ``damping``; ``submersion`` the weighted mean wetness 0 to 1; ``water_velocity`` (3) m/s, the
+    probes' mean, body axes.
     """
 
     rotation: tuple
@@ -162,7 +163,7 @@ def orbital_drag(backend, arrays, ramp, submersion, orbital, rotation):
     ``ramp`` and ``submersion`` as in `probe_damping`; ``orbital`` m/s of each probe in world
     axes.  Sums c_i s_i w_i and c_i s_i r_i x w_i.
     """
-    if backend.any(submersion < WET):
+    if backend.holds(submersion < WET):
         (x,), (y,), (z,) = backend.over_probes(arrays.share, orbital)
         ((fx, mxx, myx, mzx),
          (fy, mxy, myy, mzy),

@@ -100,7 +100,7 @@ def column(backend, heights, depth, upright):
     """
     stretch = 1.0 / backend.maximum(abs(upright), MIN_UPRIGHT)
     wet = depth * (heights.inverse * stretch)
-    if backend.any(upright < 0.0):
+    if backend.holds(upright < 0.0):
         wet = wet + backend.maximum(-upright, 0.0) * stretch
     fraction = heights.clipped(wet)
     return fraction, fraction

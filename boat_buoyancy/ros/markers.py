@@ -18,12 +18,15 @@ The boat on its water for RViz: hull, probes, forces and a patch of the surface.
 All in the world frame, so that no transform is needed to see them.
 """
 
+from functools import partial
+
 from geometry_msgs.msg import Point
 import numpy as np
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
-from .messages import probe_places, RELIABLE, set_pose, set_stamp, set_vector
+from .messages import pose_of, probe_places, RELIABLE, set_vector, stamp_of
+from .template import Template
 
 PERIOD = 0.1  # s
 DRY, WET = np.array([0.95, 0.55, 0.10]), np.array([0.10, 0.30, 0.85])
@@ -60,23 +63,25 @@ class Markers:
         self._grid = np.stack(np.meshgrid(grid, grid, indexing='ij'), axis=-1)
         self._corners = _triangles(CELLS)
 
-        frame = scene.world_frame
-        self._hull = _marker(frame, 'hull', 0, Marker.CUBE, extent, (0.85, 0.85, 0.8, 0.6))
-        self._probes = _marker(frame, 'probes', 0, Marker.SPHERE_LIST,
-                               np.full(3, 0.04 * self._length), (1.0, 1.0, 1.0, 1.0))
-        self._probes.points = [Point() for _ in positions]
-        self._probes.colors = [ColorRGBA(a=1.0) for _ in positions]
-        self._arrows = [
-            _marker(frame, 'forces', i, Marker.ARROW,
-                    np.array([0.015, 0.03, 0.03]) * self._length, (0.8, 0.1, 0.1, 0.9))
-            for i in range(len(positions))]
-        for arrow in self._arrows:
-            arrow.points = [Point(), Point()]
-        self._water = _marker(frame, 'water', 0, Marker.TRIANGLE_LIST, np.ones(3),
-                              (0.15, 0.45, 0.75, 0.5))
-        self._water.points = [Point() for _ in self._corners]
-        self._message = MarkerArray(
-            markers=[self._hull, self._probes, *self._arrows, self._water])
+        frame, count = scene.world_frame, len(positions)
+        hull = _marker(frame, 'hull', 0, Marker.CUBE, extent, (0.85, 0.85, 0.8, 0.6))
+        probes = _marker(frame, 'probes', 0, Marker.SPHERE_LIST,
+                         np.full(3, 0.04 * self._length), (1.0, 1.0, 1.0, 1.0), count)
+        probes.colors = [ColorRGBA() for _ in positions]
+        arrows = [_marker(frame, 'forces', i, Marker.ARROW,
+                          np.array([0.015, 0.03, 0.03]) * self._length, (0.8, 0.1, 0.1, 0.9), 2)
+                  for i in range(count)]
+        water = _marker(frame, 'water', 0, Marker.TRIANGLE_LIST, np.ones(3),
+                        (0.15, 0.45, 0.75, 0.5), len(self._corners))
+        markers = [hull, probes, *arrows, water]
+        self._template = template = Template(MarkerArray(markers=markers))
+        self._stamps = [stamp_of(template, marker.header.stamp) for marker in markers]
+        self._write_hull = pose_of(template, hull.pose)
+        self._write_probes, self._write_water, *self._write_arrows = (
+            template.block((len(marker.points), 3), partial(_put_points, marker.points))
+            for marker in (probes, water, *arrows))
+        self._write_colors = template.block(
+            (count, 4), partial(_put_colors, probes.colors), np.float32)
 
     @property
     def wanted(self):
@@ -85,35 +90,32 @@ class Markers:
 
     def publish(self, frame):
         """Send the boat and its water as in a `Frame`."""
-        for marker in self._message.markers:
-            set_stamp(marker.header.stamp, frame.stamp)
+        for write in self._stamps:
+            write(*frame.stamp)
         places, forces = probe_places(frame), frame.simulation.probe_forces
-        set_pose(self._hull.pose, frame)
-        set_vector(self._hull.pose.position, frame.to_world(self._middle))
-        self._fill_probes(places, forces / frame.simulation.boat.hull.max_force.clip(1e-300))
+        self._write_hull(*frame.to_world(self._middle), *frame.orientation)
+        self._write_probes(places)
+        shares = forces / frame.simulation.boat.hull.max_force.clip(1e-300)
+        self._write_colors(np.column_stack([DRY + shares[:, None] * (WET - DRY),
+                                            np.ones(len(shares))]))
         scale = ARROW * self._length * len(places) / frame.simulation.boat.weight
-        for arrow, place, force in zip(self._arrows, places, forces):
-            _fill(arrow.points, [place, place + [0.0, 0.0, scale * force]])
-        self._fill_water(frame)
-        self._publisher.publish(self._message)
+        for write, place, force in zip(self._write_arrows, places, forces):
+            write([place, place + [0.0, 0.0, scale * force]])
+        self._write_water(self._surface(frame)[self._corners])
+        self._publisher.publish(self._template.content())
 
-    def _fill_probes(self, places, shares):
-        _fill(self._probes.points, places)
-        for color, (r, g, b) in zip(self._probes.colors,
-                                    (DRY + shares[:, None] * (WET - DRY)).tolist()):
-            color.r, color.g, color.b = r, g, b
-
-    def _fill_water(self, frame):
+    def _surface(self, frame):
+        """Return points (n, 3) of the water around the boat."""
         # The patch goes with the boat in whole cells, so that its corners stay on the water.
         middle = np.round(np.array(frame.position[:2]) / self._cell) * self._cell
         x, y = np.moveaxis(self._grid + middle, -1, 0)
         height = frame.sea.elevation(x, y, frame.simulation.time)
-        points = np.stack([x, y, height], axis=-1).reshape(-1, 3)
-        _fill(self._water.points, points[self._corners])
+        return np.stack([x, y, height], axis=-1).reshape(-1, 3)
 
 
-def _marker(frame, namespace, number, kind, scale, color):
-    marker = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD)
+def _marker(frame, namespace, number, kind, scale, color, points=0):
+    marker = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD,
+                    points=[Point() for _ in range(points)])
     marker.header.frame_id = frame
     marker.pose.orientation.w = 1.0
     marker.scale.x, marker.scale.y, marker.scale.z = (max(float(s), 1e-3) for s in scale)
@@ -121,9 +123,14 @@ def _marker(frame, namespace, number, kind, scale, color):
     return marker
 
 
-def _fill(points, places):
-    for point, (x, y, z) in zip(points, np.asarray(places).tolist()):
-        point.x, point.y, point.z = x, y, z
+def _put_points(points, places):
+    for point, place in zip(points, places.tolist()):
+        set_vector(point, place)
+
+
+def _put_colors(colors, values):
+    for color, (r, g, b, a) in zip(colors, values.tolist()):
+        color.r, color.g, color.b, color.a = r, g, b, a
 
 
 def _triangles(cells):

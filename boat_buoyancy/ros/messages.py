@@ -13,13 +13,14 @@
 # limitations under the License.
 
 """
-What the node publishes every period: messages built once and refilled.
+What the node publishes every period: messages serialised once, then written over.
 
 All of one period carry one stamp and come from one state.  Nothing is filled or sent on a topic
 that nobody listens to: with volatile topics nobody misses it.
 """
 
 from array import array
+import sys
 
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from nav_msgs.msg import Odometry
@@ -30,9 +31,11 @@ from sensor_msgs.msg import PointCloud2, PointField
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from .pacing import NANOSECONDS
+from .template import Template
 from ..physics.quaternion import cross, rotation_matrix, to_world
 
 RELIABLE = QoSProfile(depth=10)
+CLOUD_FIELDS = ('x', 'y', 'z', 'depth', 'force')
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -40,7 +43,7 @@ class Frame:
     """
     One instant of a boat, as the messages want it: Python floats of the body frame.
 
-    ``stamp`` ns; ``position``, ``orientation`` in the world, ``velocity`` and
+    ``stamp`` s and ns; ``position``, ``orientation`` in the world, ``velocity`` and
     ``angular_velocity`` in body axes; ``depths`` (n,) and ``simulation`` for what is asked more
     rarely.
     """
@@ -48,7 +51,7 @@ class Frame:
     def __init__(self, session):
         """Take the present state of a `Session`."""
         simulation = session.simulation
-        self.stamp = session.stamp
+        self.stamp = divmod(session.stamp, NANOSECONDS)
         self.simulation, self.sea = simulation, simulation.sea
         motion, offset = simulation.motion, session.center_of_mass
         x, y, z = to_world(rotation_matrix(motion.orientation), offset)
@@ -81,89 +84,128 @@ def set_quaternion(quaternion, values):
     quaternion.x, quaternion.y, quaternion.z, quaternion.w = values
 
 
-def set_pose(pose, frame):
-    """Write where the body frame is into a Pose."""
-    set_vector(pose.position, frame.position)
-    set_quaternion(pose.orientation, frame.orientation)
-
-
-def set_twist(twist, frame):
-    """Write how the body frame moves, in body axes, into a Twist."""
-    set_vector(twist.linear, frame.velocity)
-    set_vector(twist.angular, frame.angular_velocity)
-
-
 class Outputs:
     """
     The publishers of every period.
 
-    Main arguments: ``node``; ``scene``, for the frames.  ``publish`` sends one `Frame`.
+    Main arguments: ``node``; ``scene``, for the frames and the number of probes.  ``publish``
+    sends the present state.
     """
 
     def __init__(self, node, scene):
         """Create the publishers and their messages."""
         world, body = scene.world_frame, scene.body_frame
-        pose, twist, odometry = PoseStamped(), TwistStamped(), Odometry()
-        depths = Float64MultiArray()
-        pose.header.frame_id = odometry.header.frame_id = world
-        twist.header.frame_id = odometry.child_frame_id = body
-
-        def fill_pose(frame):
-            set_stamp(pose.header.stamp, frame.stamp)
-            set_pose(pose.pose, frame)
-
-        def fill_twist(frame):
-            set_stamp(twist.header.stamp, frame.stamp)
-            set_twist(twist.twist, frame)
-
-        def fill_odometry(frame):
-            set_stamp(odometry.header.stamp, frame.stamp)
-            set_pose(odometry.pose.pose, frame)
-            set_twist(odometry.twist.twist, frame)
-
-        def fill_depths(frame):
-            depths.data = array('d', frame.depths.tobytes())
-
-        cloud = ProbeCloud(world)
+        count = len(scene.boat.hull.positions)
         self._topics = [
-            (node.create_publisher(type(message), name, RELIABLE), message, fill)
-            for name, message, fill in (
-                ('pose', pose, fill_pose), ('twist', twist, fill_twist),
-                ('odom', odometry, fill_odometry), ('probe_depth', depths, fill_depths),
-                ('probes', cloud.message, cloud.fill))]
+            (node.create_publisher(kind, name, RELIABLE), *made)
+            for name, kind, made in (
+                ('pose', PoseStamped, _pose(world)), ('twist', TwistStamped, _twist(body)),
+                ('odom', Odometry, _odometry(world, body)),
+                ('probe_depth', Float64MultiArray, _depths(count)),
+                ('probes', PointCloud2, _cloud(world, count)))]
 
     def publish(self, session):
         """Send the present state of a `Session` to those who listen."""
         frame = None
-        for publisher, message, fill in self._topics:
+        for publisher, template, fill in self._topics:
             if publisher.get_subscription_count():
                 frame = frame or Frame(session)
                 fill(frame)
-                publisher.publish(message)
+                publisher.publish(template.content())
 
 
-class ProbeCloud:
-    """The probes as a PointCloud2 in the world frame: x, y, z, depth and force of each."""
+def stamp_of(template, stamp):
+    """Return the function that writes seconds and nanoseconds into a stamp of a template."""
+    def put(seconds, nanoseconds):
+        stamp.sec, stamp.nanosec = seconds, nanoseconds
+    return template.numbers('iI', put)
 
-    FIELDS = ('x', 'y', 'z', 'depth', 'force')
 
-    def __init__(self, world_frame):
-        """Build the message once."""
-        fields = [PointField(name=name, offset=4 * i, datatype=PointField.FLOAT32, count=1)
-                  for i, name in enumerate(self.FIELDS)]
-        self.message = PointCloud2(fields=fields, height=1, point_step=4 * len(fields),
-                                   is_bigendian=False, is_dense=True)
-        self.message.header.frame_id = world_frame
+def pose_of(template, pose):
+    """Return the function that writes x, y, z and a quaternion into a Pose of a template."""
+    def put(x, y, z, *turned):
+        set_vector(pose.position, (x, y, z))
+        set_quaternion(pose.orientation, turned)
+    return template.numbers('ddddddd', put)
 
-    def fill(self, frame):
-        """Write the probes of a `Frame`."""
-        points = np.column_stack([probe_places(frame), frame.depths,
-                                  frame.simulation.probe_forces]).astype('<f4')
-        message = self.message
-        set_stamp(message.header.stamp, frame.stamp)
-        message.width = len(points)
-        message.row_step = message.point_step * len(points)
+
+def _twist_of(template, twist):
+    def put(x, y, z, *spin):
+        set_vector(twist.linear, (x, y, z))
+        set_vector(twist.angular, spin)
+    return template.numbers('dddddd', put)
+
+
+def _pose(world):
+    message = PoseStamped()
+    message.header.frame_id = world
+    template = Template(message)
+    stamp, pose = stamp_of(template, message.header.stamp), pose_of(template, message.pose)
+
+    def fill(frame):
+        stamp(*frame.stamp)
+        pose(*frame.position, *frame.orientation)
+    return template, fill
+
+
+def _twist(body):
+    message = TwistStamped()
+    message.header.frame_id = body
+    template = Template(message)
+    stamp, twist = stamp_of(template, message.header.stamp), _twist_of(template, message.twist)
+
+    def fill(frame):
+        stamp(*frame.stamp)
+        twist(*frame.velocity, *frame.angular_velocity)
+    return template, fill
+
+
+def _odometry(world, body):
+    message = Odometry(child_frame_id=body)
+    message.header.frame_id = world
+    template = Template(message)
+    stamp = stamp_of(template, message.header.stamp)
+    pose = pose_of(template, message.pose.pose)
+    twist = _twist_of(template, message.twist.twist)
+
+    def fill(frame):
+        stamp(*frame.stamp)
+        pose(*frame.position, *frame.orientation)
+        twist(*frame.velocity, *frame.angular_velocity)
+    return template, fill
+
+
+def _depths(count):
+    message = Float64MultiArray(data=[0.0] * count)
+
+    def put(depths):
+        message.data = array('d', depths)
+    template = Template(message)
+    depths = template.block((count,), put)
+    return template, lambda frame: depths(frame.depths)
+
+
+def _cloud(world, count):
+    """Return the probes in the world frame: x, y, z, depth and force of each."""
+    size = 4 * len(CLOUD_FIELDS)
+    message = PointCloud2(
+        fields=[PointField(name=name, offset=4 * i, datatype=PointField.FLOAT32, count=1)
+                for i, name in enumerate(CLOUD_FIELDS)],
+        height=1, width=count, point_step=size, row_step=size * count,
+        data=array('B', bytes(size * count)), is_bigendian=sys.byteorder == 'big', is_dense=True)
+    message.header.frame_id = world
+
+    def put(points):
         message.data = array('B', points.tobytes())
+    template = Template(message)
+    stamp = stamp_of(template, message.header.stamp)
+    points = template.block((count, len(CLOUD_FIELDS)), put, np.float32)
+
+    def fill(frame):
+        stamp(*frame.stamp)
+        points(np.column_stack([probe_places(frame), frame.depths,
+                                frame.simulation.probe_forces]))
+    return template, fill
 
 
 def probe_places(frame):
@@ -196,9 +238,11 @@ class ClockOutput:
     def __init__(self, node):
         """Create the publisher."""
         self._publisher = node.create_publisher(Clock, '/clock', RELIABLE)
-        self._message = Clock()
+        message = Clock()
+        self._template = Template(message)
+        self._write = stamp_of(self._template, message.clock)
 
     def publish(self, stamp):
         """Send a time in ns."""
-        set_stamp(self._message.clock, stamp)
-        self._publisher.publish(self._message)
+        self._write(*divmod(stamp, NANOSECONDS))
+        self._publisher.publish(self._template.content())
