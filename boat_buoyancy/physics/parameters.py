@@ -195,7 +195,8 @@ def _table():
                   'Current along world x and y. Higher drifts faster.',
                   at_least=-1e3, at_most=1e3, lengths=(2,)),
         Parameter('sea.transition', 'float', 2.0, 's',
-                  'Time over which a new sea replaces the old; 0 = at once. Higher is gentler.',
+                  'Time over which a new sea replaces the old; 0 = at once. Higher is gentler: '
+                  'waves of more than 3 times this period are felt as they come and go.',
                   at_least=0.0, at_most=1e6),
         Parameter('start.position', 'float_array', (0.0, 0.0), 'm',
                   'Where the body frame starts in the world: x, y (floats at its draft) or '

@@ -15,13 +15,14 @@
 """
 A sea that changes without a jump: the old one fades out while the new one fades in.
 
-Both seas are exact at the ends, also when a third arrives during the fade.  The surface rises
-continuously, and its rise counts as water velocity.
+Both seas are exact at the ends, also when a third arrives during the fade.  A sea slows down to
+a standstill while it fades out, and starts from one while it fades in: a wave that rises, falls
+and grows at its full pace at once would shake a boat harder.  The surface rises continuously,
+and its rise counts as water velocity.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-import math
 
 import numpy as np
 
@@ -30,7 +31,60 @@ from .waves import Sea
 # A flood of new seas must not make every step dearer: the newest waits while so many fade.
 MAX_FADING = 8
 # The steepest slope of the weight over the duration of the fade.
-STEEPEST = math.pi / 2
+STEEPEST = 15.0 / 8.0
+
+
+def weight(part):
+    """
+    Return the weight of the new sea and its slope, after this part of the fade.
+
+    The polynomial of least degree that leaves and arrives without slope or bend.
+    """
+    return part ** 3 * (10.0 - 15.0 * part + 6.0 * part ** 2), 30.0 * (part * (1.0 - part)) ** 2
+
+
+def pace(part):
+    """
+    Return how fast time goes for a sea, and how far it is off, this part of the fade from alone.
+
+    The pace is 1 where the sea is alone and 0 where it has no weight; what it leaves out of the
+    time is in units of the duration.
+    """
+    return (1.0 - part) ** 2, part ** 2 - part ** 3 / 3.0
+
+
+@dataclass(frozen=True)
+class Part:
+    """
+    A sea in a blend.
+
+    ``sea`` with its waves at ``pace`` times their speed, as they are ``ahead`` s later.
+    """
+
+    sea: object
+    pace: float
+    ahead: float
+
+    def surface(self, points, time):
+        """Return elevation and water velocity, (4, n, B) or (4, n), as `Sea.surface` does."""
+        if self.sea.is_flat:
+            return np.zeros((4, *points.shape[1:]))
+        time = time + self.ahead
+        if points.ndim == 2:
+            # One boat's points bring their time along.
+            points = np.vstack([points[:4], np.full_like(points[4:], time)])
+        surface = self.sea.surface(points, time)
+        surface[1:] *= self.pace
+        return surface
+
+    def elevation(self, x, y, time):
+        """Return the height of the surface in m."""
+        return self.sea.elevation(x, y, time + self.ahead)
+
+    def orbital_velocity(self, x, y, time):
+        """Return the water velocity at the surface without the current, (..., 3) m/s."""
+        velocity = self.sea.velocity(x, y, time + self.ahead)
+        return self.pace * (velocity - [*self.sea.current, 0.0])
 
 
 @dataclass(frozen=True)
@@ -38,28 +92,29 @@ class Blend:
     """
     Two seas at one instant: (1 - ``weight``) times ``old`` plus ``weight`` times ``new``.
 
-    ``rate`` 1/s is the weight's change in time, by which the surface itself rises.
+    ``old`` and ``new`` are each a `Part`; ``rate`` 1/s is the weight's change in time, by which
+    the surface itself rises.
     """
 
-    old: object
-    new: Sea
+    old: Part
+    new: Part
     weight: float
     rate: float
 
     @property
     def is_flat(self):
         """Return True when neither sea has waves."""
-        return self.old.is_flat and self.new.is_flat
+        return self.old.sea.is_flat and self.new.sea.is_flat
 
     @property
     def waves(self):
         """Return the rows (W, 4) of both seas, as each has them."""
-        return np.concatenate([self.old.waves, self.new.waves])
+        return np.concatenate([self.old.sea.waves, self.new.sea.waves])
 
     @cached_property
     def current(self):
         """Return (2,) m/s in world x and y."""
-        return self._mix(self.old.current, self.new.current)
+        return self._mix(self.old.sea.current, self.new.sea.current)
 
     @property
     def drift(self):
@@ -67,9 +122,8 @@ class Blend:
         return (*self.current.tolist(), 0.0) if self.current.any() else None
 
     def surface(self, points, time):
-        """Return elevation and water velocity, (4, n, B), as `Sea.surface` does."""
-        old, new = (np.zeros((4, *points.shape[1:])) if sea.is_flat
-                    else sea.surface(points, time) for sea in (self.old, self.new))
+        """Return elevation and water velocity, (4, n, B) or (4, n), as `Sea.surface` does."""
+        old, new = self.old.surface(points, time), self.new.surface(points, time)
         result = self._mix(old, new)
         result[3] += self.rate * (new[0] - old[0])
         return result
@@ -80,10 +134,10 @@ class Blend:
 
     def velocity(self, x, y, time):
         """Return the water velocity at the surface, (..., 3) m/s, world axes, with current."""
-        result = self._mix(self.old.velocity(x, y, time), self.new.velocity(x, y, time))
+        result = self._mix(*(part.orbital_velocity(x, y, time) for part in (self.old, self.new)))
         result[..., 2] += self.rate * (
             self.new.elevation(x, y, time) - self.old.elevation(x, y, time))
-        return result
+        return result + [*self.current, 0.0]
 
     def _mix(self, old, new):
         return (1.0 - self.weight) * old + self.weight * new
@@ -95,9 +149,10 @@ class SeaTransition:
     A sea in cross-fade, in place of a `Sea` in a simulation.
 
     ``old``, a `Sea` or itself a transition, until ``start`` s; ``new`` from ``start`` +
-    ``duration`` s on; between them a `Blend` whose weight is half a cosine, the ramp that asks
-    least of a boat.  The surface then rises at most as fast as the faster of both seas plus
-    pi/2 times their heights over ``duration``: waves much longer than ``duration`` are felt.
+    ``duration`` s on; between them a `Blend`.  Over a fade of T s the surface of a wave of
+    amplitude a and frequency w, to or from flat water, rises no faster than the wave's own a w
+    while w T >= 1.89 (`test_transition` derives it): up to periods of 3.3 T.  Longer waves are
+    felt: raise the duration.
     """
 
     old: object
@@ -110,12 +165,23 @@ class SeaTransition:
         part = (time - self.start) / self.duration
         if part >= 1.0:
             return self.new
-        old = self.old.at(time)
         if part <= 0.0:
-            return old
-        angle = math.pi * part
-        return Blend(old, self.new, 0.5 - 0.5 * math.cos(angle),
-                     STEEPEST / self.duration * math.sin(angle))
+            return self.old.at(time)
+        share, slope = weight(part)
+        if self._is_same_water:
+            return replace(self.new, current=(1.0 - share) * self.old.current
+                           + share * self.new.current)
+        (old_pace, late), (new_pace, early) = pace(part), pace(1.0 - part)
+        late, early = -self.duration * late, self.duration * early
+        return Blend(Part(self.old.at(time + late), old_pace, late),
+                     Part(self.new, new_pace, early), share, slope / self.duration)
+
+    @cached_property
+    def _is_same_water(self):
+        """Return True when the waves stay as they are and only the current changes."""
+        old, new = self.old, self.new
+        return (isinstance(old, Sea) and np.array_equal(old.waves, new.waves)
+                and (old.depth, old.gravity) == (new.depth, new.gravity))
 
     def settled(self, time):
         """Return True when only the new sea is left."""
