@@ -40,6 +40,8 @@ ARGUMENTS = {
     'y': ('', 'Where the boat starts along world y, in m; with x alone 0.'),
     'yaw': ('', "Heading at the start in rad, counter-clockwise from x; level. Empty: the scene's "
                 'start.'),
+    'sea_state': ('', 'WMO sea state 0 to 9, the same water for all that ask for the same. '
+                      "Empty: the scene's sea."),
     'publish_clock': ('', 'true: this boat is the source of /clock, from 0 on.'),
     'time_factor': ('', 'Simulated over wall time, with publish_clock; 0.0 = as fast as it can.'),
     'use_sim_time': ('', 'true: steps follow a /clock from elsewhere.'),
@@ -68,6 +70,14 @@ def number(given, name):
         raise RuntimeError(f'{name}: expected a number, got {given[name]!r}') from None
 
 
+def whole(given, name):
+    """Return an argument as a whole number."""
+    try:
+        return int(given[name])
+    except ValueError:
+        raise RuntimeError(f'{name}: expected a whole number, got {given[name]!r}') from None
+
+
 def switch(given, name):
     """Return an argument that is true or false."""
     values = {'true': True, '1': True, 'false': False, '0': False}
@@ -82,6 +92,8 @@ def overrides(given):
                   for name in ('publish_clock', 'use_sim_time') if given[name]}
     if given['time_factor']:
         parameters['time_factor'] = number(given, 'time_factor')
+    if given['sea_state']:
+        parameters['sea.sea_state'] = whole(given, 'sea_state')
     if given['x'] or given['y']:
         parameters['start.position'] = [number(given, 'x'), number(given, 'y')]
     if given['yaw']:

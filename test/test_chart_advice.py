@@ -148,6 +148,18 @@ def test_a_hull_of_too_few_probes_is_not_advised_however_small_the_step():
     assert trial.error(Setting('leapfrog', 200.0, (2, 2))) > tolerance
 
 
+def test_an_advised_setting_that_is_started_with_a_warning_says_so():
+    # Coarse enough for a tolerance of 20 cm, and too coarse to come to rest with.
+    given = load_scene(SCENES['irregular'][0]).given
+    found = advise(given, 0.2)
+    expected = load_scene({**given, **found.best.setting.values()}).simulation().warnings
+    assert any('will rattle at rest' in sentence for sentence in expected)
+    assert found.warnings == expected
+    lines = advice.report('scene.yaml', found, 0.2)
+    assert [line for line in lines if line.startswith('It will be started with a warning: ')
+            and 'will rattle at rest' in line]
+
+
 def test_what_limits_is_said_when_nothing_meets_the_tolerance():
     given = load_scene(SCENES['irregular'][0]).given
     found = advice.advise(given, 1e-4, rates=RATES[:4], step_costs=known_costs)

@@ -135,7 +135,7 @@ def test_the_report_shown_is_the_report_one_gets(monkeypatch):
 
 def test_the_library_example_runs_and_says_what_is_shown(tmp_path, monkeypatch):
     monkeypatch.chdir(ROOT)
-    example, = blocks('python')
+    _, example = blocks('python')
     path = tmp_path / 'example.py'
     path.write_text(example)
     said = io.StringIO()
@@ -143,6 +143,12 @@ def test_the_library_example_runs_and_says_what_is_shown(tmp_path, monkeypatch):
         runpy.run_path(str(path))
     lines = re.findall(r'# -> (.*)$', example, re.MULTILINE)
     assert lines == said.getvalue().strip().splitlines()
+
+
+def test_the_launch_example_is_a_part_of_the_file_it_is_said_to_come_from():
+    example, _ = blocks('python')
+    shipped = (ROOT / 'launch' / 'two_boats.launch.py').read_text()
+    assert ' '.join(example.split()) in ' '.join(shipped.split())
 
 
 def test_the_figures_of_the_knobs_are_those_of_the_scenes():

@@ -21,6 +21,7 @@ from . import settings
 from .settings import Result, Setting, Trial
 from .stretch import stretches
 from ..physics.integrators import METHODS
+from ..physics.scene import scene_from_values
 
 # How fast an error may fall, more than it ever does: one order above the method's own, and a
 # factor besides.  What cannot meet the tolerance even so is not tried.
@@ -43,7 +44,8 @@ class Advice:
     ``checked`` m, its error on the other stretch; ``cheaper``, the most accurate `Result` of all
     that cost less, and ``present``, that of the scene as it is, None when there is none;
     ``limit`` says what stands in the way, or is empty.
-    ``chosen_on`` and ``checked_on`` name the stretches, of ``duration`` s each.
+    ``chosen_on`` and ``checked_on`` name the stretches, of ``duration`` s each; ``warnings`` are
+    the sentences that ``best`` brings and the scene as it is does not.
     """
 
     best: Result | None
@@ -54,6 +56,7 @@ class Advice:
     chosen_on: str
     checked_on: str
     duration: float
+    warnings: tuple = ()
 
 
 def advise(given, tolerance, *, rates=settings.RATES, step_costs=settings.step_costs,
@@ -93,11 +96,21 @@ def advise(given, tolerance, *, rates=settings.RATES, step_costs=settings.step_c
             checked = other.error(setting)
             if checked <= tolerance:
                 return Advice(result, checked, _most_accurate(given, tried[:-1]), present, '',
-                              *names)
+                              *names, _new_warnings(given, setting))
             tried[-1] = replace(result, error=checked)
     best = _most_accurate(given, tried)
     return Advice(best, Trial.of(second).error(best.setting), None, present,
-                  _limit(trial, best), *names)
+                  _limit(trial, best), *names, _new_warnings(given, best.setting))
+
+
+def _new_warnings(given, setting):
+    """Return what a setting is warned of that has nothing to do with the rest of the scene."""
+    try:
+        known = scene_from_values(given).simulation().warnings
+    except ValueError:
+        known = ()
+    return tuple(sentence for sentence in settings.warnings(given, setting)
+                 if sentence not in known)
 
 
 def _is_hopeless(tried, setting, tolerance):
@@ -164,13 +177,14 @@ def report(name, advice, tolerance):
         if best is not None:
             lines += ['The most accurate of all that were tried:', '']
             lines += [f'    {line}' for line in best.setting.lines()]
-            lines += ['', _worth(advice)]
+            lines += ['', _worth(advice), *_warned(advice)]
         return lines
     lines = [f'{name}: the cheapest setting that meets {tolerance:g} m. In its parameter file, '
              'each in place of the line of that name, if it has one:', '']
     lines += [f'    {line}' for line in best.setting.lines()]
     lines += ['', _worth(advice),
-              'rate is also how often the node publishes: where that is too seldom, keep yours.']
+              'rate is also how often the node publishes: where that is too seldom, keep yours.',
+              *_warned(advice)]
     if cheaper is None:
         lines.append('Nothing that was tried is cheaper.')
     else:
@@ -182,6 +196,11 @@ def report(name, advice, tolerance):
                      f'{advice.present.error:.2g} m at {advice.present.cpu / best.cpu:.2g} times '
                      'the CPU time.')
     return lines
+
+
+def _warned(advice):
+    """Return the warnings as lines."""
+    return [f'It will be started with a warning: {sentence}' for sentence in advice.warnings]
 
 
 def _worth(advice):

@@ -168,10 +168,15 @@ def candidates(seconds, rates=RATES):
 def is_allowed(given, setting):
     """Return True when a scene with this setting is not refused as unstable."""
     try:
-        scene_from_values({**given, **setting.values()}).simulation()
+        warnings(given, setting)
     except ValueError:
         return False
     return True
+
+
+def warnings(given, setting):
+    """Return the sentences that a scene with this setting is started with."""
+    return scene_from_values({**given, **setting.values()}).simulation().warnings
 
 
 def present(trial, measured):

@@ -15,7 +15,7 @@
 """The speed of the step: what one boat and a fleet cost, beside what their cosines alone cost."""
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 import math
 import multiprocessing
 import os
@@ -51,8 +51,8 @@ class Case:
     What is timed.
 
     ``kind`` 'step', or what it is held against: 'trigonometry' (the cosines and sines of as many
-    waves at as many probes of as many boats), 'single' (one such cosine reduced in double and
-    taken in single precision), 'double' (the same in double), 'small call' (``numpy.add`` on 4
+    waves at as many probes of as many boats), 'single' (the step with cosines reduced in double
+    and taken in single precision, as it is not shipped), 'small call' (``numpy.add`` on 4
     elements).
     """
 
@@ -75,8 +75,8 @@ def cases(quick):
                                        ('implicit', False), ('rk4', True),
                                        ('symplectic_euler', True))]
     limits = [Case('trigonometry', b, p, w) for b in boats for p in PROBES for w in waves if w]
-    return (steps + variants + limits
-            + [base('single', 1000), base('double', 1000), Case('small call')])
+    single = [Case('single', b, BASE_PROBES, w) for b in (1, 1000) for w in waves if w]
+    return steps + variants + limits + single + [Case('small call')]
 
 
 def measure_alone(quick, rounds):
@@ -141,7 +141,7 @@ def simulation(case):
     scene = load_scene(parameters)
     random = np.random.default_rng(7)
     count = case.waves
-    sea = Sea(np.stack([np.full(count, 0.3 / math.sqrt(max(count, 1))),
+    sea = (SingleSea if case.kind == 'single' else Sea)(np.stack([np.full(count, 0.3 / math.sqrt(max(count, 1))),
                         random.uniform(3.0, 8.0, count), random.uniform(-0.5, 0.5, count),
                         random.uniform(0.0, 6.28, count)], axis=1))
     start = scene.start
@@ -154,7 +154,7 @@ def simulation(case):
 
 def _work(case):
     """Return a function without arguments that does the work of a case once."""
-    if case.kind == 'step':
+    if case.kind in ('step', 'single'):
         return simulation(case).step
     if case.kind == 'small call':
         small, out = np.arange(4.0), np.empty(4)
@@ -168,27 +168,53 @@ def _trigonometry(case):
     blocks = math.ceil(case.boats / width)
     angle = np.random.default_rng(7).uniform(0.0, 2.0 * math.pi,
                                              (case.waves * case.probes, width))
-    out, single = np.empty_like(angle), np.empty(angle.shape, np.float32)
+    out = np.empty_like(angle)
 
     def both():
         for _ in range(blocks):
             np.cos(angle, out=out)
             np.sin(angle, out=out)
+    return both
 
-    def reduced():
-        # As the step would have to: whole turns taken off in double first.
-        np.multiply(angle, 1.0 / (2.0 * math.pi), out=out)
-        np.rint(out, out=out)
-        np.multiply(out, -2.0 * math.pi, out=out)
-        np.add(out, angle, out=out)
-        np.copyto(single, out, casting='same_kind')
-        np.cos(single, out=single)
 
-    return {'trigonometry': both, 'single': reduced,
-            'double': partial(np.cos, angle, out=out)}[case.kind]
+class SingleSea(Sea):
+    """
+    The sea with cosines and sines in single precision, for measuring what they would bring.
+
+    Whole turns are taken off in double first; what is left is rounded to 1e-7 of the amplitude.
+    """
+
+    @cached_property
+    def _single_table(self):
+        """Return rows of angles in turns, and what a cosine and a sine of each wave give."""
+        amplitude, _, direction, phase = self.waves.T
+        speed, zero = amplitude * self.angular_frequency, np.zeros(len(amplitude))
+        rows = np.column_stack([self.wave_vector, zero, phase, -self.angular_frequency])
+        response = np.array([[*amplitude, *zero], [*speed * np.cos(direction), *zero],
+                             [*speed * np.sin(direction), *zero], [*zero, *speed]])
+        return rows / (2.0 * math.pi), response.astype(np.float32)
+
+    def surface(self, points, time):
+        """Return elevation and water velocity as `Sea.surface` does, to single precision."""
+        rows, response = self._single_table
+        if points.ndim == 2:
+            turns = rows.dot(points)
+        else:
+            turns = rows[:, :2].dot(points[:2].reshape(2, -1))
+            turns += rows[:, 3:4] + rows[:, 4:] * time
+        waves = len(turns)
+        turns -= np.rint(turns)
+        terms = np.empty((2 * waves, turns.shape[1]), np.float32)
+        np.multiply(turns, 2.0 * math.pi, out=terms[waves:], casting='same_kind')
+        np.cos(terms[waves:], out=terms[:waves])
+        np.sin(terms[waves:], out=terms[waves:])
+        return response.dot(terms).astype(float).reshape(4, *points.shape[1:])
 
 
 def single_precision_error():
-    """Return the largest error of cosines of angles reduced in double and rounded to single."""
-    angle = np.random.default_rng(7).uniform(-math.pi, math.pi, 100_000)
-    return float(np.abs(np.cos(angle.astype(np.float32)) - np.cos(angle)).max())
+    """Return the largest error of a `SingleSea` over its largest amplitude, far from time 0."""
+    made, exact = (simulation(Case(kind, 1000, BASE_PROBES, BASE_WAVES)).sea
+                   for kind in ('single', 'step'))
+    points = np.random.default_rng(7).uniform(-SPREAD, SPREAD, (3, BASE_PROBES, 10_000))
+    off = made.surface(points, 1e4)[0] - exact.surface(points, 1e4)[0]
+    return float(np.abs(off).max() / exact.waves[:, 0].sum())

@@ -37,6 +37,14 @@ def draw(best, path):
         # Flat water has no place on a logarithmic axis: it stands half a wave to the left.
         _pair(right, best, [(Case('step', fleet, probes, w), max(w, 0.5)) for w in waves],
               colour, marker, f'{probes} probes')
+    single = [case for case in best if case.kind == 'single' and case.boats == fleet]
+    colour, marker = SERIES[len(PROBES)]
+    right.plot([case.waves for case in single], [microseconds(best, case) for case in single],
+               color=colour, marker=marker, linestyle=':')
+    last = single[-1]
+    right.annotate(f'{last.probes} probes in single\nprecision, not shipped',
+                   (last.waves, microseconds(best, last)), (0, -10), ha='right', va='top',
+                   textcoords='offset points', fontsize='small', color=colour)
     logarithmic(left, 'boats stepped together', 'CPU time per boat-step [µs]')
     logarithmic(right, 'waves', '')
     left.set_title(f'Over boats ({BASE_WAVES} waves)')

@@ -140,16 +140,17 @@ def _methods(best):
 
 def _single(best):
     """Return the lines on cosines in single precision."""
-    single, double = (microseconds(best, Case(kind, 1000, BASE_PROBES, BASE_WAVES))
-                      for kind in ('single', 'double'))
-    return ['## Single precision', '',
-            f'A set of {BASE_PROBES * BASE_WAVES} cosines costs {double:.3g} microseconds in '
-            f'double and {single:.3g} reduced in double and taken in single precision, with an '
-            f'error of {single_precision_error():.1g} of the amplitude.  One boat takes two such '
-            'sets (cosines, and sines as cosines a quarter turn on) and would save next to '
-            'nothing; a fleet makes both of one tangent in double, so there is no cosine left to '
-            'shorten. '
-            'The package stays in double.']
+    lines = ['## Single precision', '',
+             'What cosines and sines in single precision would bring, their angles reduced in '
+             f'double: an error of {single_precision_error():.1g} of the amplitude, and these '
+             f'microseconds per boat-step ({BASE_PROBES} probes).  The package stays in double.',
+             '', '| waves | 1 boat, double | 1 boat, single | 1000 boats, double | '
+             '1000 boats, single |', '|---|---|---|---|---|']
+    for waves in sorted({case.waves for case in best if case.kind == 'single'}):
+        cells = [f'{microseconds(best, Case(kind, boats, BASE_PROBES, waves)):.3g}'
+                 for boats in (1, 1000) for kind in ('step', 'single')]
+        lines.append(f'| {waves} | ' + ' | '.join(cells) + ' |')
+    return lines
 
 
 def write_table(path, best):

@@ -1,0 +1,159 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What the launch files start, seen by stand-ins for launch and launch_ros.
+
+Neither can be had without a ROS installation. The stand-ins keep what they are given, so that
+what is handed to the node can be checked: it has to be a scene that runs.
+"""
+
+import importlib.util
+from pathlib import Path
+import sys
+from types import ModuleType, SimpleNamespace
+
+from boat_buoyancy.physics import load_scene
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[1]
+SCENES = sorted(path.stem for path in (ROOT / 'config').glob('*.yaml'))
+
+
+class Kept:
+    """Stands for any class of launch: keeps its arguments."""
+
+    def __init__(self, *arguments, **options):
+        """Keep them."""
+        self.arguments, self.options = arguments, options
+
+
+class LaunchConfiguration(Kept):
+    """Looks an argument up in the context, a dict."""
+
+    def perform(self, context):
+        """Return its value."""
+        return context[self.arguments[0]]
+
+
+STAND_INS = {
+    'ament_index_python': {},
+    'ament_index_python.packages': {'get_package_share_directory': lambda package: str(ROOT)},
+    'launch': {'LaunchDescription': Kept},
+    'launch.actions': dict.fromkeys(('DeclareLaunchArgument', 'GroupAction', 'OpaqueFunction',
+                                     'IncludeLaunchDescription'), Kept),
+    'launch.conditions': {'IfCondition': Kept},
+    'launch.launch_description_sources': {'PythonLaunchDescriptionSource': Kept},
+    'launch.substitutions': {'LaunchConfiguration': LaunchConfiguration},
+    'launch_ros': {},
+    'launch_ros.actions': {'Node': Kept, 'SetRemap': Kept}}
+
+
+@pytest.fixture
+def load(monkeypatch):
+    """Return a function that loads a launch file by its name."""
+    for name, content in STAND_INS.items():
+        module = ModuleType(name)
+        vars(module).update(content)
+        monkeypatch.setitem(sys.modules, name, module)
+
+    def loaded(name):
+        spec = importlib.util.spec_from_file_location(name, ROOT / 'launch' / f'{name}.launch.py')
+        module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+        return module
+    return loaded
+
+
+@pytest.fixture
+def start(load):
+    """Return a function that gives the boat and RViz as started with arguments."""
+    boat = load('boat')
+
+    def started(**given):
+        defaults = {name: default for name, (default, _) in boat.ARGUMENTS.items()}
+        assert set(given) <= set(defaults)
+        return [SimpleNamespace(**node.options) for node in boat.nodes({**defaults, **given})]
+    return started
+
+
+def scene_of(node):
+    """Return the `Scene` that the node will read."""
+    file, overrides = node.parameters
+    section, = yaml.safe_load(Path(file).read_text()).values()
+
+    def flat(group, prefix=''):
+        for name, value in group.items():
+            if isinstance(value, dict):
+                yield from flat(value, f'{prefix}{name}.')
+            else:
+                yield prefix + name, value
+    values = dict(flat(section['ros__parameters'] or {}))
+    values.update(overrides)
+    values.pop('use_sim_time', None)
+    return load_scene(values)
+
+
+@pytest.mark.parametrize('scene', SCENES)
+def test_every_shipped_scene_starts_by_its_name(start, scene):
+    boat, _ = start(scene=scene)
+    assert (boat.package, boat.executable) == ('boat_buoyancy', 'buoyancy_node')
+    assert scene_of(boat).given == load_scene(ROOT / 'config' / f'{scene}.yaml').given
+
+
+def test_arguments_reach_the_scene(start):
+    boat, _ = start(x='3.0', yaw='1.5', sea_state='4', publish_clock='true', time_factor='2',
+                    namespace='red')
+    scene = scene_of(boat)
+    assert boat.namespace == 'red'
+    assert scene.values['start.position'] == (3.0, 0.0)
+    assert scene.values['start.orientation'] == (0.0, 0.0, 1.5)
+    assert (scene.values['publish_clock'], scene.values['time_factor']) == (True, 2.0)
+    assert len(scene.sea.waves) == 16
+
+
+@pytest.mark.parametrize('given, said', [
+    ({'scene': 'rowing'}, 'scene: expected the path of a parameter file or one of barge, .*got'),
+    ({'x': 'east'}, "x: expected a number, got 'east'"),
+    ({'sea_state': '3.5'}, "sea_state: expected a whole number, got '3.5'"),
+    ({'publish_clock': 'yes'}, "publish_clock: expected true or false, got 'yes'")])
+def test_a_wrong_argument_is_one_line(start, given, said):
+    with pytest.raises(RuntimeError, match=said):
+        start(**given)
+
+
+def test_rviz_follows_the_clock_of_the_boat_and_only_comes_when_asked_for(start):
+    _, rviz = start(publish_clock='true', rviz='true')
+    assert rviz.parameters == [{'use_sim_time': True}]
+    assert rviz.condition.arguments == ('true',)
+    assert Path(rviz.arguments[1]).is_file()
+
+
+def test_two_boats_are_apart_and_in_one_sea(load, start):
+    groups = [action for action in load('two_boats').generate_launch_description().arguments[0]
+              if isinstance(action.arguments[0], list)]
+    boats = []
+    for group in groups:
+        remap, include = group.arguments[0]
+        assert remap.arguments == ('wave_parameters', '/wave_parameters')
+        assert Path(include.arguments[0].arguments[0]).name == 'boat.launch.py'
+        given = dict(include.options['launch_arguments'])
+        given['sea_state'] = given['sea_state'].perform({'sea_state': '3'})
+        boats.append(start(**given)[0])
+    scenes = [scene_of(boat) for boat in boats]
+    assert len({boat.namespace for boat in boats}) == len(boats) == 2
+    assert scenes[0].sea.waves.tolist() == scenes[1].sea.waves.tolist() != []
+    apart = scenes[1].start.position - scenes[0].start.position
+    assert abs(apart[1]) > 5.0
