@@ -141,9 +141,10 @@ def simulation(case):
     scene = load_scene(parameters)
     random = np.random.default_rng(7)
     count = case.waves
-    sea = (SingleSea if case.kind == 'single' else Sea)(np.stack([np.full(count, 0.3 / math.sqrt(max(count, 1))),
-                        random.uniform(3.0, 8.0, count), random.uniform(-0.5, 0.5, count),
-                        random.uniform(0.0, 6.28, count)], axis=1))
+    kind = SingleSea if case.kind == 'single' else Sea
+    sea = kind(np.stack([np.full(count, 0.3 / math.sqrt(max(count, 1))),
+                         random.uniform(3.0, 8.0, count), random.uniform(-0.5, 0.5, count),
+                         random.uniform(0.0, 6.28, count)], axis=1))
     start = scene.start
     if case.boats > 1:
         position = np.tile(start.position, (case.boats, 1))
