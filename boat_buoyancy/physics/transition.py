@@ -21,7 +21,7 @@ and grows at its full pace at once would shake a boat harder.  The surface rises
 and its rise counts as water velocity.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -32,6 +32,8 @@ from .waves import Sea
 MAX_FADING = 8
 # The steepest slope of the weight over the duration of the fade.
 STEEPEST = 15.0 / 8.0
+# As `pace`, of waves that are the same in both seas.
+FULL_PACE = 1.0, 0.0
 
 
 def weight(part):
@@ -168,10 +170,8 @@ class SeaTransition:
         if part <= 0.0:
             return self.old.at(time)
         share, slope = weight(part)
-        if self._is_same_water:
-            return replace(self.new, current=(1.0 - share) * self.old.current
-                           + share * self.new.current)
-        (old_pace, late), (new_pace, early) = pace(part), pace(1.0 - part)
+        (old_pace, late), (new_pace, early) = (
+            2 * [FULL_PACE] if self._is_same_water else (pace(part), pace(1.0 - part)))
         late, early = -self.duration * late, self.duration * early
         return Blend(Part(self.old.at(time + late), old_pace, late),
                      Part(self.new, new_pace, early), share, slope / self.duration)
