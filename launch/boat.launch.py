@@ -41,7 +41,7 @@ ARGUMENTS = {
     'yaw': ('', "Heading at the start in rad, counter-clockwise from x; level. Empty: the scene's "
                 'start.'),
     'sea_state': ('', 'WMO sea state 0 to 9, the same water for all that ask for the same. '
-                      "Empty: the scene's sea."),
+                      "For scenes without a sea of their own. Empty: the scene's sea."),
     'publish_clock': ('', 'true: this boat is the source of /clock, from 0 on.'),
     'time_factor': ('', 'Simulated over wall time, with publish_clock; 0.0 = as fast as it can.'),
     'use_sim_time': ('', 'true: steps follow a /clock from elsewhere.'),

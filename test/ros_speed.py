@@ -259,11 +259,13 @@ def publishing(rate, seconds):
     namespace = new_namespace()
     listener = subprocess.Popen([sys.executable, '-c', LISTENER, namespace, 'pose'], cwd=HERE,
                                 stdout=subprocess.DEVNULL)
-    found = subprocess.run(
-        [sys.executable, '-c', PUBLISH, str(rate), str(seconds), '--ros-args', '-r',
-         f'__ns:={namespace}'], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
-    listener.kill()
-    listener.wait()
+    try:
+        found = subprocess.run(
+            [sys.executable, '-c', PUBLISH, str(rate), str(seconds), '--ros-args', '-r',
+             f'__ns:={namespace}'], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    finally:
+        listener.kill()
+        listener.wait()
     return [float(value) for value in found.stdout.split()]
 
 

@@ -113,6 +113,16 @@ def test_every_shipped_scene_starts_by_its_name(start, scene):
     assert scene_of(boat).given == load_scene(ROOT / 'config' / f'{scene}.yaml').given
 
 
+@pytest.mark.parametrize('scene', SCENES)
+def test_a_sea_state_goes_with_every_scene_that_has_no_sea_of_its_own(start, scene):
+    boat, _ = start(scene=scene, sea_state='3')
+    if load_scene(ROOT / 'config' / f'{scene}.yaml').sea.is_flat:
+        assert len(scene_of(boat).sea.waves) == 16
+    else:
+        with pytest.raises(ValueError, match='expected one kind of waves'):
+            scene_of(boat)
+
+
 def test_arguments_reach_the_scene(start):
     boat, _ = start(x='3.0', yaw='1.5', sea_state='4', publish_clock='true', time_factor='2',
                     namespace='red')

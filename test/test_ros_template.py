@@ -72,5 +72,21 @@ def test_what_was_published_is_not_changed_by_what_comes_after():
 
 
 def test_a_place_that_is_not_in_the_message_is_an_error():
+    write = Template(Marker()).numbers('ii', lambda *numbers: None)
     with pytest.raises(RuntimeError, match='expected 8 bytes once .* found them 0 times'):
-        Template(Marker()).numbers('ii', lambda *numbers: None)
+        write(1, 2)
+
+
+def test_an_array_of_another_size_is_an_error_and_changes_nothing():
+    message = Float64MultiArray(data=[0.0] * 4)
+
+    def put(values):
+        message.data = array('d', values)
+    template = Template(message)
+    write = template.block((4,), put)
+    write([1.0, 2.0, 3.0, 4.0])
+    for wrong in ([1.0] * 3, [1.0] * 5):
+        with pytest.raises(ValueError):
+            write(wrong)
+    read = deserialize_message(template.content(), Float64MultiArray)
+    assert read.data.tolist() == [1.0, 2.0, 3.0, 4.0]

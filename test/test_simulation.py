@@ -268,4 +268,6 @@ def test_a_state_out_of_reach_of_the_arithmetic_is_refused_and_changes_nothing()
     before = moving.state
     with pytest.raises(ValueError, match=r'state.position: expected less than 1e\+100 m .*got'):
         moving.state = State([0.0, -1e200, 0.0])
+    with pytest.raises(ValueError, match='state.position'):
+        moving.state = State([9e99, -9e99, 0.0])
     assert same(moving.state, before)

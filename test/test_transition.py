@@ -18,9 +18,9 @@ import math
 
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.boat import State
+from boat_buoyancy.physics.fading import pace, same_waves, STEEPEST, weight
 from boat_buoyancy.physics.simulation import Simulation
-from boat_buoyancy.physics.transition import (fade, MAX_FADING, pace, SeaTransition, STEEPEST,
-                                              weight)
+from boat_buoyancy.physics.transition import fade, MAX_FADING, SeaTransition
 from boat_buoyancy.physics.waves import Sea
 import numpy as np
 import pytest
@@ -36,10 +36,12 @@ POINTS = np.stack([X, Y, np.zeros(7)])[:, :, None]
 
 
 def everything(sea, time):
-    """Return elevation, velocity and what the step is given, in one array."""
+    """Return elevation, velocity and what a step is given, in one array."""
     now = sea.at(time)
+    one_boat = np.vstack([POINTS[:, :, 0], np.ones(7), np.full(7, time)])
     return np.concatenate([now.elevation(X, Y, time).ravel(), now.velocity(X, Y, time).ravel(),
-                           now.surface(POINTS, time).ravel(), now.current])
+                           now.surface(POINTS, time).ravel(),
+                           now.surface(one_boat, time).ravel(), now.current])
 
 
 def test_both_ends_are_exact():
@@ -89,6 +91,87 @@ def test_the_bound_of_the_water_speed_holds():
     fastest = max(np.linalg.norm(sea.velocity(X, Y, time), axis=1).max()
                   for time in np.linspace(9.0, 13.0, 400))
     assert fastest <= sea.fastest_water
+
+
+@pytest.mark.parametrize('seas', [(OLD, NEW), (OLD, NEW, THIRD), (NEW, OLD, OLD, NEW)])
+def test_one_boat_is_given_the_surface_that_a_fleet_is_given(seas):
+    sea = seas[0]
+    for i, new in enumerate(seas[1:]):
+        sea = fade(sea, new, START + 0.7 * i, DURATION)
+    for time in np.arange(9.5, 14.5, 0.1):
+        one_boat = np.vstack([POINTS[:, :, 0], np.ones(7), np.full(7, time)])
+        now = sea.at(time)
+        np.testing.assert_allclose(now.surface(one_boat, time),
+                                   now.surface(POINTS, time)[:, :, 0], atol=1e-12)
+
+
+def test_weights_add_up_to_one_whatever_came_between():
+    random, sea, time = np.random.default_rng(3), OLD, START
+    for _ in range(40):
+        time += random.choice([0.0, 0.05, 0.6, 1.5, 3.0])
+        new = [NEW, THIRD, FLAT, OLD, Sea(OLD.waves[:1]), Sea([[0.2, 3.0, 0.0, 0.4]])]
+        sea = fade(sea, new[random.integers(6)], time, DURATION) or sea
+        for now in time + np.arange(0.0, 2.2, 0.1):
+            if isinstance(sea.at(now), Sea):
+                continue
+            # Waves and current of a sea fade by one weight: count each sea once, by its fades.
+            weights = {tuple((fade.start, fade.comes) for fade in group.fades):
+                       group.weight(now) for group in sea.groups}
+            assert sum(weight for weight, _ in weights.values()) == pytest.approx(1.0)
+            assert sum(change for _, change in weights.values()) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_new_sea_every_second_for_an_hour_makes_no_step_dearer():
+    sea, most = FLAT, 0
+    for second in range(3600):
+        sea = fade(sea, Sea([[0.1, 3.0 + 0.001 * second, 0.0, 0.0]]), float(second), DURATION)
+        most = max(most, len(sea.groups))
+        assert np.isfinite(sea.fastest_water)
+    assert most <= 4
+    np.testing.assert_array_equal(sea.at(3601.0).elevation(X, Y, 3601.0).shape, X.shape)
+
+
+def test_seas_of_one_instant_are_the_last_of_them():
+    flood = OLD
+    for i in range(1000):
+        flood = fade(flood, Sea([[0.1, 3.0, 0.01 * i, 0.0]]), START, DURATION)
+    flood = fade(flood, NEW, START, DURATION)
+    alone = fade(OLD, NEW, START, DURATION)
+    for time in (START, 10.6, 11.3, END):
+        np.testing.assert_array_equal(everything(flood, time), everything(alone, time))
+
+
+@pytest.mark.parametrize('period', [1.8, 3.0, 4.0])
+def test_waves_that_are_given_again_a_little_higher_keep_their_pace(period):
+    # As of somebody who estimates the sea and publishes it twice a second.
+    sea, times = Sea([[0.2, period, 0.3, 0.0]]), np.arange(0.0, 20.0, 0.02)
+    height = []
+    for step, time in enumerate(times):
+        if step % 25 == 0:
+            sea = fade(sea, Sea([[0.2 + 0.0005 * time, period, 0.3, 0.0]]), time, DURATION)
+        height.append(sea.elevation(0.0, 0.0, time))
+    late = 0.2 + 0.0005 * times
+    exact = late * np.cos(2 * np.pi * times / period)
+    assert np.abs(height - exact).max() < 0.0005 * (DURATION + 0.5)
+
+
+def test_waves_that_are_shifted_by_a_step_are_never_off_by_more_than_that_step():
+    waves = Sea([[0.2, 1.8, 0.0, 0.0], [0.1, 4.0, 1.0, 2.0]])
+    shifted = waves.starting_at(0.01)
+    sea = fade(waves, shifted, START, DURATION)
+    for time in np.arange(START, END, 0.01):
+        off = np.abs(sea.elevation(X, Y, time) - shifted.elevation(X, Y, time)).max()
+        assert off <= 0.01 * fastest_rise(waves)
+
+
+def test_the_same_wave_has_the_period_the_direction_and_about_the_phase():
+    old = Sea([[0.2, 3.0, 0.0, 0.0], [0.1, 2.0, 1.0, 0.5], [0.1, 2.0, 1.0, 3.0]])
+    new = Sea([[0.1, 2.0, 1.0, 3.0 + 4 * math.pi], [0.3, 3.0, 0.0, 2.0], [0.1, 2.0, 1.0, 0.6],
+               [0.1, 2.5, 1.0, 0.5]])
+    kept, again = same_waves(old, new)
+    assert kept.tolist() == [False, True, True]
+    assert again.tolist() == [True, False, True, False]
+    assert not same_waves(old, Sea(new.waves, depth=5.0))[0].any()
 
 
 def test_seas_given_again_and_again_wait_their_turn():
@@ -229,7 +312,7 @@ def test_waves_that_fade_in_start_from_a_standstill_and_end_at_their_pace(part, 
     sea, h = fade(FLAT, NEW, 0.0, DURATION), 1e-6
 
     def seen(part):
-        return part * DURATION + sea.at(part * DURATION).new.ahead
+        return sea.at(part * DURATION).parts[-1].time
 
     assert (seen(part + h) - seen(part - h)) / (2 * h * DURATION) == pytest.approx(
         expected, abs=0.003)
@@ -281,4 +364,6 @@ def test_a_simulation_takes_a_sea_in_transition_wherever_it_takes_a_sea():
 def test_a_transition_ends_as_a_plain_sea():
     sea = fade(OLD, NEW, START, DURATION)
     assert isinstance(sea, SeaTransition) and sea.at(END) is NEW
-    assert isinstance(fade(sea, THIRD, END, DURATION).old, Sea)
+    after = fade(sea, THIRD, END, DURATION)
+    assert [group.sea.waves.tolist() for group in after.groups] == [NEW.waves.tolist(),
+                                                                    THIRD.waves.tolist()]

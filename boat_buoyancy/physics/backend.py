@@ -56,14 +56,14 @@ class Backend:
     place: Callable
 
 
-# No boat is farther away, in m; below, nothing that is computed of one can overflow.
+# No boat is farther away, all three coordinates together, in m; below, nothing that is computed of one can overflow.
 FARTHEST = 1e100
 
 
 def _place_one(points, rotation, position, time):
     a, b, c, d, e, f, g, h, i = rotation
     x, y, z = position
-    if not -FARTHEST < x + y + z < FARTHEST:
+    if not abs(x) + abs(y) + abs(z) < FARTHEST:
         # Before NumPy meets what is infinite or no number, and warns.
         raise ArithmeticError('the boat is nowhere')
     return np.array((a, b, c, x, d, e, f, y, g, h, i, z, 0.0, 0.0, 0.0, 1.0,

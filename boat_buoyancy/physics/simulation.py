@@ -227,7 +227,7 @@ class Simulation:
         arrays = (state.position, state.orientation, state.velocity, state.angular_velocity)
         if not all(np.isfinite(values).all() for values in arrays):
             raise ValueError(f'state: expected finite numbers, got {state}')
-        if (np.abs(state.position) >= FARTHEST).any():
+        if not (np.abs(state.position).sum(axis=-1) < FARTHEST).all():
             raise ValueError(f'state.position: expected less than {FARTHEST:g} m from the origin, '
                              f'got {state.position.tolist()}')
         if not (np.abs((state.orientation ** 2).sum(axis=-1) - 1.0) < 1e-3).all():

@@ -15,108 +15,86 @@
 """
 A sea that changes without a jump: the old one fades out while the new one fades in.
 
-Both seas are exact at the ends, also when a third arrives during the fade.  A sea slows down to
-a standstill while it fades out, and starts from one while it fades in: a wave that rises, falls
-and grows at its full pace at once would shake a boat harder.  The surface rises continuously,
-and its rise counts as water velocity.
+Both seas are exact at the ends, also when a third arrives during the fade.  The surface rises
+continuously, and its rise counts as water velocity.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from .fading import coming, Group, same_waves
 from .waves import Sea
 
 # A flood of new seas must not make every step dearer: the newest waits while so many fade.
 MAX_FADING = 8
-# The steepest slope of the weight over the duration of the fade.
-STEEPEST = 15.0 / 8.0
-# As `pace`, of waves that are the same in both seas.
-FULL_PACE = 1.0, 0.0
-
-
-def weight(part):
-    """
-    Return the weight of the new sea and its slope, after this part of the fade.
-
-    The polynomial of least degree that leaves and arrives without slope or bend.
-    """
-    return part ** 3 * (10.0 - 15.0 * part + 6.0 * part ** 2), 30.0 * (part * (1.0 - part)) ** 2
-
-
-def pace(part):
-    """
-    Return how fast time goes for a sea, and how far it is off, this part of the fade from alone.
-
-    The pace is 1 where the sea is alone and 0 where it has no weight; what it leaves out of the
-    time is in units of the duration.
-    """
-    return (1.0 - part) ** 2, part ** 2 - part ** 3 / 3.0
 
 
 @dataclass(frozen=True)
 class Part:
     """
-    A sea in a blend.
+    Waves at one instant.
 
-    ``sea`` with its waves at ``pace`` times their speed, as they are ``ahead`` s later.
+    ``sea`` as it is at ``time`` s, its time going at ``pace`` times that of the rest; ``weight``
+    and its ``change`` in 1/s, by which the surface itself rises.
     """
 
-    sea: object
+    sea: Sea
+    time: float
     pace: float
-    ahead: float
+    weight: float
+    change: float
 
-    def surface(self, points, time):
-        """Return elevation and water velocity, (4, n, B) or (4, n), as `Sea.surface` does."""
-        if self.sea.is_flat:
-            return np.zeros((4, *points.shape[1:]))
-        time = time + self.ahead
+    def surface(self, points):
+        """Return the part's share of what `Sea.surface` gives."""
         if points.ndim == 2:
             # One boat's points bring their time along.
-            points = np.vstack([points[:4], np.full_like(points[4:], time)])
-        surface = self.sea.surface(points, time)
-        surface[1:] *= self.pace
+            points = np.vstack([points[:4], np.full_like(points[4:], self.time)])
+        surface = self.sea.surface(points, self.time)
+        height = surface[0].copy()
+        surface[0] *= self.weight
+        surface[1:] *= self.weight * self.pace
+        surface[3] += self.change * height
         return surface
 
-    def elevation(self, x, y, time):
-        """Return the height of the surface in m."""
-        return self.sea.elevation(x, y, time + self.ahead)
+    def elevation(self, x, y):
+        """Return the part's share of the height of the surface in m."""
+        return self.weight * self.sea.elevation(x, y, self.time)
 
-    def orbital_velocity(self, x, y, time):
-        """Return the water velocity at the surface without the current, (..., 3) m/s."""
-        velocity = self.sea.velocity(x, y, time + self.ahead)
-        return self.pace * (velocity - [*self.sea.current, 0.0])
+    def velocity(self, x, y):
+        """Return the part's share of the water velocity (..., 3) m/s, with its current."""
+        current = [*self.sea.current, 0.0]
+        orbital = self.sea.velocity(x, y, self.time) - current
+        velocity = self.weight * (self.pace * orbital + current)
+        velocity[..., 2] += self.change * self.sea.elevation(x, y, self.time)
+        return velocity
 
 
 @dataclass(frozen=True)
 class Blend:
-    """
-    Two seas at one instant: (1 - ``weight``) times ``old`` plus ``weight`` times ``new``.
+    """The sea of one instant of a transition: the sum of its ``parts``."""
 
-    ``old`` and ``new`` are each a `Part`; ``rate`` 1/s is the weight's change in time, by which
-    the surface itself rises.
-    """
+    parts: tuple
 
-    old: Part
-    new: Part
-    weight: float
-    rate: float
+    @cached_property
+    def _waving(self):
+        return tuple(part for part in self.parts if not part.sea.is_flat)
 
     @property
     def is_flat(self):
-        """Return True when neither sea has waves."""
-        return self.old.sea.is_flat and self.new.sea.is_flat
+        """Return True when no part has waves."""
+        return not self._waving
 
     @property
     def waves(self):
-        """Return the rows (W, 4) of both seas, as each has them."""
-        return np.concatenate([self.old.sea.waves, self.new.sea.waves])
+        """Return the rows (W, 4) of all parts, as each has them."""
+        return np.concatenate([part.sea.waves for part in self.parts])
 
     @cached_property
     def current(self):
         """Return (2,) m/s in world x and y."""
-        return self._mix(self.old.sea.current, self.new.sea.current)
+        return sum(part.weight * part.sea.current for part in self.parts)
 
     @property
     def drift(self):
@@ -125,24 +103,19 @@ class Blend:
 
     def surface(self, points, time):
         """Return elevation and water velocity, (4, n, B) or (4, n), as `Sea.surface` does."""
-        old, new = self.old.surface(points, time), self.new.surface(points, time)
-        result = self._mix(old, new)
-        result[3] += self.rate * (new[0] - old[0])
+        first, *others = self._waving
+        result = first.surface(points)
+        for part in others:
+            result += part.surface(points)
         return result
 
     def elevation(self, x, y, time):
-        """Return the height of the surface in m at world ``x``, ``y`` m and ``time`` s."""
-        return self._mix(self.old.elevation(x, y, time), self.new.elevation(x, y, time))
+        """Return the height of the surface in m at world ``x`` and ``y`` m."""
+        return sum(part.elevation(x, y) for part in self.parts)
 
     def velocity(self, x, y, time):
         """Return the water velocity at the surface, (..., 3) m/s, world axes, with current."""
-        result = self._mix(*(part.orbital_velocity(x, y, time) for part in (self.old, self.new)))
-        result[..., 2] += self.rate * (
-            self.new.elevation(x, y, time) - self.old.elevation(x, y, time))
-        return result + [*self.current, 0.0]
-
-    def _mix(self, old, new):
-        return (1.0 - self.weight) * old + self.weight * new
+        return sum(part.velocity(x, y) for part in self.parts)
 
 
 @dataclass(frozen=True)
@@ -150,59 +123,43 @@ class SeaTransition:
     """
     A sea in cross-fade, in place of a `Sea` in a simulation.
 
-    ``old``, a `Sea` or itself a transition, until ``start`` s; ``new`` from ``start`` +
-    ``duration`` s on; between them a `Blend`.  Over a fade of T s the surface of a wave of
-    amplitude a and frequency w, to or from flat water, rises no faster than the wave's own a w
-    while w T >= 1.89 (`test_transition` derives it): up to periods of 3.3 T.  Longer waves are
-    felt: raise the duration.
+    ``groups`` of waves from ``start`` to ``end`` s; from then on ``new``; ``before``, the groups
+    without the last fade.  Over a fade of T s the surface of
+    a wave of amplitude a and frequency w, to or from flat water, rises no faster than the wave's
+    own a w while w T >= 1.89 (`test_transition` derives it): up to periods of 3.3 T.  Longer
+    waves are felt: raise the duration.
     """
 
-    old: object
+    groups: tuple
     new: Sea
     start: float
-    duration: float
+    end: float
+    before: tuple = ()
 
     def at(self, time):
-        """Return the sea in force at ``time``: the old, the new, or their `Blend`."""
-        part = (time - self.start) / self.duration
-        if part >= 1.0:
+        """Return the sea in force at ``time``: the new one, or a `Blend`."""
+        if self.settled(time):
             return self.new
-        if part <= 0.0:
-            return self.old.at(time)
-        share, slope = weight(part)
-        (old_pace, late), (new_pace, early) = (
-            2 * [FULL_PACE] if self._is_same_water else (pace(part), pace(1.0 - part)))
-        late, early = -self.duration * late, self.duration * early
-        return Blend(Part(self.old.at(time + late), old_pace, late),
-                     Part(self.new, new_pace, early), share, slope / self.duration)
-
-    @cached_property
-    def _is_same_water(self):
-        """Return True when the waves stay as they are and only the current changes."""
-        old, new = self.old, self.new
-        return (isinstance(old, Sea) and np.array_equal(old.waves, new.waves)
-                and (old.depth, old.gravity) == (new.depth, new.gravity))
+        parts = []
+        for group in self.groups:
+            weight, change = group.weight(time)
+            if weight != 0.0 or change != 0.0:
+                parts.append(Part(group.sea, *group.clock(time), weight, change))
+        return Blend(tuple(parts))
 
     def settled(self, time):
         """Return True when only the new sea is left."""
-        return time >= self.start + self.duration
+        return time >= self.end
 
     def fading(self, time):
         """Return how many seas are fading in at ``time``."""
-        if self.settled(time):
-            return 0
-        return 1 + (self.old.fading(time) if isinstance(self.old, SeaTransition) else 0)
+        return len({fade.start for group in self.groups for fade in group.fades
+                    if fade.comes and fade.end > time})
 
     @property
     def fastest_water(self):
         """Return a bound of the water speed at the surface in m/s, over the whole fade."""
-        return (self.old.fastest_water + self.new.fastest_water
-                + STEEPEST / self.duration * self.highest_water)
-
-    @property
-    def highest_water(self):
-        """Return a bound of the elevation in m, over the whole fade."""
-        return highest_water(self.old) + highest_water(self.new)
+        return sum(group.fastest_water for group in self.groups)
 
     def elevation(self, x, y, time):
         """Return the height of the surface in m at world ``x``, ``y`` m and one ``time`` s."""
@@ -214,13 +171,10 @@ class SeaTransition:
 
     def starting_at(self, time):
         """Return the same transition with its clock set so that 0 is this one's ``time`` s."""
-        return SeaTransition(self.old.starting_at(time), self.new.starting_at(time),
-                             self.start - time, self.duration)
-
-
-def highest_water(sea):
-    """Return a bound of the elevation of a sea or transition in m."""
-    return sea.highest_water if isinstance(sea, SeaTransition) else float(sea.waves[:, 0].sum())
+        groups, before = (tuple(group.starting_at(time) for group in some)
+                          for some in (self.groups, self.before))
+        return SeaTransition(groups, self.new.starting_at(time), self.start - time,
+                             self.end - time, before)
 
 
 def fade(sea, new, time, duration):
@@ -229,9 +183,24 @@ def fade(sea, new, time, duration):
 
     ``sea`` may itself be in transition.  None while `MAX_FADING` seas are fading: try again.
     """
-    if isinstance(sea, SeaTransition):
-        if sea.fading(time) >= MAX_FADING and duration > 0.0:
+    if duration == 0.0:
+        return new
+    if isinstance(sea, SeaTransition) and not sea.settled(time):
+        if sea.start == time:
+            # The last had no time to begin.
+            before = sea.before
+        elif sea.fading(time) >= MAX_FADING:
             return None
-        if sea.settled(time):
-            sea = sea.new
-    return SeaTransition(sea, new, time, duration) if duration > 0.0 else new
+        else:
+            before = tuple(filter(None, (group.pruned(time) for group in sea.groups)))
+    else:
+        before = (Group(sea.at(time)),)
+    going, again = [], np.zeros(len(new.waves), bool)
+    for group in before:
+        left = np.flatnonzero(~again)
+        kept, found = same_waves(group.sea, replace(new, waves=new.waves[left]))
+        if group.stays:
+            again[left[found]] = True
+        going += group.replaced(kept, time, duration)
+    return SeaTransition((*going, *coming(new, again, time, duration)), new, time,
+                         time + duration, before)

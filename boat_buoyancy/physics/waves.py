@@ -197,7 +197,7 @@ class Sea:
         count = points.size // len(points)
         if len(self.waves) * count < MANY_ANGLES:
             rows, response = self._cosine_table
-            angle = _angles(rows, points, time)
+            angle = angles(rows, points, time)
             np.cos(angle, angle)
             surface = response.dot(angle)
             return surface if points.ndim == 2 else surface.reshape(4, *points.shape[1:])
@@ -205,7 +205,7 @@ class Sea:
         waves = len(rows)
         terms = np.empty((2 * waves, count))
         reciprocal, tangent = terms[:waves], terms[waves:]
-        _angles(rows, points, time, tangent)
+        angles(rows, points, time, tangent)
         np.tan(tangent, tangent)
         np.multiply(tangent, tangent, reciprocal)
         reciprocal += 1.0
@@ -214,8 +214,13 @@ class Sea:
         return (response.dot(terms) - offset).reshape(4, *points.shape[1:])
 
 
-def _angles(rows, points, time, out=None):
-    """Return the angles (rows, points) of `Sea.surface`."""
+def angles(rows, points, time, out=None):
+    """
+    Return the angle (R, count) rad of each row at each point.
+
+    ``rows`` (R, 5), what x, y, z, 1 and t contribute; ``points`` and ``time`` as in
+    `Sea.surface`; ``out`` as NumPy's.
+    """
     if points.ndim == 2:
         return rows.dot(points, out)
     # Over a fleet, what depends on time alone is added once, not once a probe.

@@ -31,16 +31,16 @@ class Template:
     """
     A message as bytes, with places for numbers.
 
-    ROS itself serialises: where a number lies is found by looking for one that was put there.
-    Fields of the message that no place was made for stay as they are now.
+    ROS itself serialises, once, before the first number is written: where a number lies is found
+    by looking for one that was put there. Fields that no place was made for stay as they are.
     """
 
     def __init__(self, message):
         """Take a message whose strings and lists have their final lengths."""
-        self._message = message
+        self._message, self._bytes = message, None
+        self._wanted, self._offsets = [], []
         # Whole numbers that a float holds exactly, each put into the message once.
         self._unused = FIRST_MARK
-        self._bytes = bytearray(serialize_message(message))
 
     def numbers(self, form, put):
         """
@@ -53,40 +53,49 @@ class Template:
         marks = [float(mark) if letter in 'fd' else mark
                  for letter, mark in zip(form, self._take(len(form)).tolist())]
         put(*marks)
-        offset, target = self._find(place.pack(*marks)), self._bytes
+        index = self._want(place.pack(*marks))
 
         def write(*numbers):
-            place.pack_into(target, offset, *numbers)
+            place.pack_into(self._bytes or self._serialised(), self._offsets[index], *numbers)
         return write
 
     def block(self, shape, put, dtype=float):
         """
         Return a function that writes an array to where ``put`` puts one of ``shape``.
 
-        The numbers have to stand side by side in the message, in the array's order.
+        The numbers, one at least, have to stand side by side in the message, in the array's
+        order. The function raises ValueError for an array of another size.
         """
         marks = self._take(np.prod(shape, dtype=int)).astype(dtype).reshape(shape)
         put(marks)
-        offset, target = self._find(marks.tobytes()), self._bytes
-        end = offset + marks.nbytes
+        index = self._want(marks.tobytes())
 
         def write(values):
-            target[offset:end] = np.asarray(values, dtype).tobytes()
+            target, offset = self._bytes or self._serialised(), self._offsets[index]
+            target[offset:offset + marks.nbytes] = np.asarray(values, dtype).tobytes()
         return write
 
     def content(self):
         """Return the bytes to publish."""
-        return bytes(self._bytes)
+        return bytes(self._bytes or self._serialised())
 
     def _take(self, count):
         first, self._unused = self._unused, self._unused + count
         return np.arange(first, self._unused)
 
-    def _find(self, wanted):
-        """Return where ``wanted`` bytes lie in the message as it is now; they lie there once."""
+    def _want(self, content):
+        self._wanted.append(content)
+        return len(self._wanted) - 1
+
+    def _serialised(self):
+        """Serialise the message, find the marks in it and return its bytes, to be written to."""
         content = serialize_message(self._message)
-        if len(content) != len(self._bytes) or content.count(wanted) != 1:
-            raise RuntimeError(f'{type(self._message).__name__}: expected {len(wanted)} bytes '
-                               f'once in a message of {len(self._bytes)} bytes, found them '
-                               f'{content.count(wanted)} times in {len(content)}')
-        return content.index(wanted)
+        for wanted in self._wanted:
+            if content.count(wanted) != 1:
+                raise RuntimeError(
+                    f'{type(self._message).__name__}: expected {len(wanted)} bytes once in a '
+                    f'message of {len(content)}, found them {content.count(wanted)} times')
+            self._offsets.append(content.index(wanted))
+        # A view does not change its size, whatever is written.
+        self._bytes = memoryview(bytearray(content))
+        return self._bytes

@@ -104,7 +104,7 @@ def advise(given, tolerance, *, rates=settings.RATES, step_costs=settings.step_c
 
 
 def _new_warnings(given, setting):
-    """Return what a setting is warned of that has nothing to do with the rest of the scene."""
+    """Return the sentences that a setting is started with and the scene as it is is not."""
     try:
         known = scene_from_values(given).simulation().warnings
     except ValueError:
