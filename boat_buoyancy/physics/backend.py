@@ -56,7 +56,8 @@ class Backend:
     place: Callable
 
 
-# No boat is farther away, all three coordinates together, in m; below, nothing that is computed of one can overflow.
+# No boat is farther away, in m, all three coordinates together; below, nothing that is computed
+# of one can overflow.
 FARTHEST = 1e100
 
 

@@ -63,7 +63,7 @@ class Part:
         return self.weight * self.sea.elevation(x, y, self.time)
 
     def velocity(self, x, y):
-        """Return the part's share of the water velocity (..., 3) m/s, with its current."""
+        """Return the part's share of the water velocity, (..., 3) m/s, its current included."""
         current = [*self.sea.current, 0.0]
         orbital = self.sea.velocity(x, y, self.time) - current
         velocity = self.weight * (self.pace * orbital + current)

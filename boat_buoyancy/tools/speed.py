@@ -209,7 +209,7 @@ class SingleSea(Sea):
 
 
 def single_precision_error():
-    """Return the largest error of a `SingleSea` over the sum of its amplitudes, far from time 0."""
+    """Return the largest error of a `SingleSea`, far from time 0, over the sum of amplitudes."""
     made, exact = (water(Case(kind, waves=BASE_WAVES)) for kind in ('single', 'step'))
     points = np.random.default_rng(7).uniform(-SPREAD, SPREAD, (3, BASE_PROBES, 10_000))
     off = made.surface(points, 1e4)[0] - exact.surface(points, 1e4)[0]
