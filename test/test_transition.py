@@ -251,6 +251,23 @@ def test_heave_acceleration_in_a_fade_is_within_what_either_irregular_sea_alone_
     assert faded <= settled
 
 
+@pytest.mark.long
+def test_heave_acceleration_in_fades_between_any_irregular_seas():
+    random, over = np.random.default_rng(11), []
+    while len(over) < 20:
+        given = [irregular(int(random.integers(1, 5)), float(random.choice([0.0, 1.0, 2.5, -1.0])),
+                           int(random.integers(1, 50))) if random.integers(5) else {}
+                 for _ in range(2)]
+        if given[0] == given[1]:
+            continue
+        faded, _, settled = in_the_fade_and_alone(
+            *(load_scene(one).sea for one in given), 5000)
+        over.append(faded / settled)
+    print(f'over either sea alone: median {np.median(over):.2f}, '
+          f'{sum(one <= 1.0 for one in over)} of {len(over)} within, worst {max(over):.2f}')
+    assert np.median(over) <= 1.0
+
+
 @pytest.mark.parametrize('old, new', [
     ([], [0.2, 4.0, 0.5, 0.0]), ([0.2, 4.0, 0.5, 0.0], []), (CHOP, OTHER),
     ([0.15, 3.0, 0.0, 0.0], [0.2, 4.0, 0.5, 0.0]), ([], SWELL)])
