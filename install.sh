@@ -36,6 +36,12 @@ find_pip() {
   return 1
 }
 
+for extra in $(printf '%s' "$extras" | tr , ' '); do
+  case $extra in
+    ros|test|chart) ;;
+    *) fail "expected ros, test or chart, several with commas between, got '$extra'" ;;
+  esac
+done
 case ",$extras," in
   *,ros,*)
     [ "$(uname -s) $(uname -m)" = 'Linux x86_64' ] ||

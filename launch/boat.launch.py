@@ -22,10 +22,9 @@ Start one boat.
 
 import os
 
-from ament_index_python.packages import get_package_share_directory
+from ament_index_python.packages import get_package_share_directory, PackageNotFoundError
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
-from launch.conditions import IfCondition
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
@@ -109,12 +108,19 @@ def nodes(context):
         package=PACKAGE, executable='buoyancy_node', namespace=given['namespace'],
         output='screen', emulate_tty=True, parameters=[scene_file(given['scene']), parameters])
     simulated = parameters.get('publish_clock') or parameters.get('use_sim_time') or False
-    rviz = Node(
+    if not switch(given, 'rviz'):
+        return [boat]
+    try:
+        # Before the boat starts: launch leaves behind what runs when an action fails.
+        get_package_share_directory('rviz2')
+    except PackageNotFoundError:
+        raise RuntimeError('rviz: expected rviz2 to be installed, as by apt install '
+                           'ros-jazzy-rviz2; it is not') from None
+    return [boat, Node(
         package='rviz2', executable='rviz2', namespace=given['namespace'], output='screen',
         arguments=['-d', os.path.join(
             get_package_share_directory(PACKAGE), 'config', 'boat.rviz')],
-        parameters=[{'use_sim_time': simulated}], condition=IfCondition(given['rviz']))
-    return [boat, rviz]
+        parameters=[{'use_sim_time': simulated}])]
 
 
 def generate_launch_description():

@@ -32,6 +32,10 @@ from launch_ros.actions import SetRemap
 
 LAUNCH = os.path.join(get_package_share_directory('boat_buoyancy'), 'launch')
 
+# Arguments of one boat that must not reach both from the command line.
+NOT_SHARED = {'x': '0.0', 'yaw': '0.0', 'publish_clock': '', 'time_factor': '',
+              'use_sim_time': '', 'rviz': 'false'}
+
 
 def boat(namespace, scene, y):
     """Return one boat at y m, listening to the waves of all."""
@@ -39,7 +43,7 @@ def boat(namespace, scene, y):
         SetRemap('wave_parameters', '/wave_parameters'),
         IncludeLaunchDescription(
             PythonLaunchDescriptionSource(os.path.join(LAUNCH, 'boat.launch.py')),
-            launch_arguments={'namespace': namespace, 'scene': scene, 'y': y,
+            launch_arguments={**NOT_SHARED, 'namespace': namespace, 'scene': scene, 'y': y,
                               'sea_state': LaunchConfiguration('sea_state')}.items())])
 
 

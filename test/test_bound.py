@@ -19,7 +19,7 @@ from boat_buoyancy.physics.bound import speed_norm, SpeedBound
 from boat_buoyancy.physics.hull import Hull
 from boat_buoyancy.physics.simulation import Simulation, SimulationError
 from boat_buoyancy.physics.stability import plan
-from boat_buoyancy.physics.transition import SeaTransition
+from boat_buoyancy.physics.transition import fade
 from boat_buoyancy.physics.waves import Sea
 from boats import reference_boat, turned, undamped, wind_sea
 import numpy as np
@@ -170,7 +170,7 @@ def test_terminal_speed_lies_under_the_overall_bound():
 
 def test_a_sea_in_transition_stays_within_its_own_bound():
     drawn = draw(3)
-    sea = SeaTransition(Sea([[1.5, 5.0, 0.0, 0.0]]), wind_sea(), 0.1, 0.4)
+    sea = fade(Sea([[1.5, 5.0, 0.0, 0.0]]), wind_sea(), 0.1, 0.4)
     assert worst_ratio(drawn._replace(sea=sea, step=0.02)) <= 1.0 + ROUND_OFF
 
 

@@ -50,11 +50,11 @@ class LaunchConfiguration(Kept):
 
 STAND_INS = {
     'ament_index_python': {},
-    'ament_index_python.packages': {'get_package_share_directory': lambda package: str(ROOT)},
+    'ament_index_python.packages': {'get_package_share_directory': lambda package: str(ROOT),
+                                    'PackageNotFoundError': LookupError},
     'launch': {'LaunchDescription': Kept},
     'launch.actions': dict.fromkeys(('DeclareLaunchArgument', 'GroupAction', 'OpaqueFunction',
                                      'IncludeLaunchDescription'), Kept),
-    'launch.conditions': {'IfCondition': Kept},
     'launch.launch_description_sources': {'PythonLaunchDescriptionSource': Kept},
     'launch.substitutions': {'LaunchConfiguration': LaunchConfiguration},
     'launch_ros': {},
@@ -108,14 +108,14 @@ def scene_of(node):
 
 @pytest.mark.parametrize('scene', SCENES)
 def test_every_shipped_scene_starts_by_its_name(start, scene):
-    boat, _ = start(scene=scene)
+    boat, = start(scene=scene)
     assert (boat.package, boat.executable) == ('boat_buoyancy', 'buoyancy_node')
     assert scene_of(boat).given == load_scene(ROOT / 'config' / f'{scene}.yaml').given
 
 
 @pytest.mark.parametrize('scene', SCENES)
 def test_a_sea_state_goes_with_every_scene_that_has_no_sea_of_its_own(start, scene):
-    boat, _ = start(scene=scene, sea_state='3')
+    boat, = start(scene=scene, sea_state='3')
     if load_scene(ROOT / 'config' / f'{scene}.yaml').sea.is_flat:
         assert len(scene_of(boat).sea.waves) == 16
     else:
@@ -124,8 +124,8 @@ def test_a_sea_state_goes_with_every_scene_that_has_no_sea_of_its_own(start, sce
 
 
 def test_arguments_reach_the_scene(start):
-    boat, _ = start(x='3.0', yaw='1.5', sea_state='4', publish_clock='true', time_factor='2',
-                    namespace='red')
+    boat, = start(x='3.0', yaw='1.5', sea_state='4', publish_clock='true', time_factor='2',
+                  namespace='red')
     scene = scene_of(boat)
     assert boat.namespace == 'red'
     assert scene.values['start.position'] == (3.0, 0.0)
@@ -147,8 +147,20 @@ def test_a_wrong_argument_is_one_line(start, given, said):
 def test_rviz_follows_the_clock_of_the_boat_and_only_comes_when_asked_for(start):
     _, rviz = start(publish_clock='true', rviz='true')
     assert rviz.parameters == [{'use_sim_time': True}]
-    assert rviz.condition.arguments == ('true',)
     assert Path(rviz.arguments[1]).is_file()
+    assert len(start(rviz='false')) == 1
+
+
+def test_rviz_that_is_not_installed_is_one_line_before_anything_starts(load, monkeypatch):
+    def missing(package):
+        if package == 'rviz2':
+            raise LookupError(package)
+        return str(ROOT)
+    boat = load('boat')
+    monkeypatch.setattr(boat, 'get_package_share_directory', missing)
+    given = {name: default for name, (default, _) in boat.ARGUMENTS.items()}
+    with pytest.raises(RuntimeError, match='rviz: expected rviz2 to be installed'):
+        boat.nodes({**given, 'rviz': 'true'})
 
 
 def test_two_boats_are_apart_and_in_one_sea(load, start):

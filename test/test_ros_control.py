@@ -15,12 +15,16 @@
 """Reset, pause, single steps, faults of the motion, and who else is there."""
 
 import math
+import re
+import subprocess
+import sys
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import WrenchStamped
 import numpy as np
 import pytest
-from ros_probe import BEST_EFFORT, BoatProcess, LATCHED, NAME, nanoseconds, Probe, wrench
+from ros_probe import (BEST_EFFORT, BoatProcess, LATCHED, NAME, nanoseconds, Probe, ROOT,
+                       wrench)
 from std_msgs.msg import Float64MultiArray
 
 
@@ -128,3 +132,22 @@ def test_a_second_node_of_the_same_name_is_warned_of(boat, probe):
     with BoatProcess({'status_period': 0.0}, namespace=boat.namespace) as twin:
         twin.wait_for_log('another node is called')
         boat.wait_for_log('another node is called')
+
+
+@pytest.mark.parametrize('arguments, code, said', [
+    (['config/barge.yaml'], 2, 'expected arguments after --ros-args only, .* got config/barge'),
+    (['--params-file', 'config/barge.yaml'], 2, 'expected arguments after --ros-args only'),
+    (['--help'], 0, 'usage: buoyancy_node')])
+def test_arguments_that_nothing_looks_at_are_refused_in_one_line(arguments, code, said):
+    ended = subprocess.run([sys.executable, '-m', 'boat_buoyancy.ros.node', *arguments], cwd=ROOT,
+                           capture_output=True, text=True, timeout=30.0)
+    assert ended.returncode == code
+    assert re.search(said, ended.stdout + ended.stderr)
+    assert code == 0 or len(ended.stderr.splitlines()) == 1
+
+
+def test_waves_that_no_water_could_have_are_warned_of():
+    with BoatProcess({'status_period': 0.0}) as boat, Probe(boat.namespace) as probe:
+        waves = probe.publisher(Float64MultiArray, 'wave_parameters')
+        waves.publish(Float64MultiArray(data=[5.0, 2.0, 0.0, 0.0]))
+        boat.wait_for_log('The waves are steeper than water can be')

@@ -144,7 +144,7 @@ def _table():
                   'for a hull shape, else spring.', choices=LAWS, **fixed),
         _axes('damping.linear_retention', (0.95,),
               'Part of the velocity kept after one second in water, for all or for three body '
-              'axes. Higher glides farther; 1 = no drag.'),
+              'axes. Higher glides farther; 1 = no drag but that of damping.probe.'),
         _axes('damping.angular_retention', (0.9,),
               'Part of the angular velocity kept after one second in water, for all or for '
               'three body axes. Higher keeps rolling longer; 1 = no drag.'),

@@ -184,14 +184,18 @@ def _warnings(boat, sea, given, in_force):
         if name in given and abs(largest) > FULL_TURN:
             warnings.append(f'{name} has an angle of {largest:g}, more than a full turn: angles '
                             'are in radians, and this looks like degrees.')
+    return (*warnings, *sea_warnings(sea))
+
+
+def sea_warnings(sea):
+    """Return sentences on a `Sea` that no water could have, in a tuple."""
     steepness = 2.0 * sea.waves[:, 0] * np.hypot(*sea.wave_vector.T) / (2.0 * np.pi)
-    if steepness.max(initial=0.0) > BREAKING:
-        row = int(np.argmax(steepness))
-        warnings.append(
-            f'The waves are steeper than water can be: row {row + 1}, {sea.waves[row].tolist()}, '
+    if steepness.max(initial=0.0) <= BREAKING:
+        return ()
+    row = int(np.argmax(steepness))
+    return (f'The waves are steeper than water can be: row {row + 1}, {sea.waves[row].tolist()}, '
             f'has a height of {steepness[row]:.2g} of its length, and breaks above {BREAKING:.2g};'
-            ' give it a longer period or less amplitude.')
-    return tuple(warnings)
+            ' give it a longer period or less amplitude.',)
 
 
 def _without_effect(in_force):

@@ -90,7 +90,8 @@ def loaded(scene, simulation):
     boat, sea, values = scene.boat, scene.sea, scene.values
     hull = (' x '.join(f'{size:g}' for size in values['hull.size']) + ' m '
             + values['hull.shape'] if 'hull.shape' in values else 'boat')
-    what = f'{hull} of {boat.mass:g} kg on {len(boat.hull.positions)} probes'
+    count = len(boat.hull.positions)
+    what = f'{hull} of {boat.mass:g} kg on {count} probe{"s" if count > 1 else ""}'
     if hydrostatics.floats(boat):
         rest = hydrostatics.rest_state(boat)
         motions = ', '.join(
@@ -107,13 +108,14 @@ def loaded(scene, simulation):
             f'{simulation.substeps} substep{"s" if simulation.substeps > 1 else ""}; {water}')
 
 
-def status_line(frame, time, real_time_factor):
+def status_line(frame, time, real_time_factor, paused):
     """Return one line for somebody who watches: ``time`` s, place, attitude, speed."""
     x, y, z = frame.position
     qx, qy, qz, qw = frame.orientation
     roll = math.atan2(2.0 * (qw * qx + qy * qz), 1.0 - 2.0 * (qx * qx + qy * qy))
     pitch = math.asin(max(-1.0, min(1.0, 2.0 * (qw * qy - qz * qx))))
-    return (f't {time:.1f} s, x {x:.2f} y {y:.2f} z {z:.3f} m, '
-            f'roll {math.degrees(roll):.1f} pitch {math.degrees(pitch):.1f} deg, '
-            f'speed {math.hypot(*frame.velocity):.2f} m/s, '
-            f'real-time factor {real_time_factor:.2f}')
+    # Without the minus of what rounds to nothing.
+    roll, pitch = (round(math.degrees(angle), 1) + 0.0 for angle in (roll, pitch))
+    pace = 'paused' if paused else f'real-time factor {real_time_factor:.2f}'
+    return (f't {time:.1f} s, x {x:.2f} y {y:.2f} z {z:.3f} m, roll {roll:.1f} pitch {pitch:.1f} '
+            f'deg, speed {math.hypot(*frame.velocity):.2f} m/s, {pace}')

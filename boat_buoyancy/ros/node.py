@@ -42,7 +42,7 @@ from .parameters import declare, given_values, LiveParameters
 from .reports import Reports
 from .session import Session
 from ..physics.parameters import NODE_NAME
-from ..physics.scene import scene_from_values
+from ..physics.scene import scene_from_values, sea_warnings
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 VOLATILE = QoSProfile(depth=10)
@@ -201,6 +201,8 @@ class BoatNode(Node):
         if self.session.set_waves(read_waves(unpack_waves(raw))):
             self._waves_output.publish(self.session.sea)
             self.get_logger().info(f'waves: {len(self.session.sea.waves)} in force')
+            for sentence in sea_warnings(self.session.sea):
+                self.get_logger().warning(sentence)
 
     def _on_place(self, message):
         x, y, yaw = read_place(message, self.session.scene)
@@ -235,6 +237,8 @@ class BoatNode(Node):
     def _on_set_paused(self, request, response):
         if self._paused and not request.data and not self.session.fault:
             self.session.skip(self._drive.resume())
+        if self._paused != request.data:
+            self.get_logger().info('paused' if request.data else 'running')
         self._paused = request.data
         response.success, response.message = True, 'paused' if request.data else 'running'
         return response
@@ -257,7 +261,11 @@ def main(arguments=None):
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stop.append(1))
     try:
-        startup.check_files(sys.argv if arguments is None else arguments)
+        given = sys.argv if arguments is None else arguments
+        if startup.check_arguments(given):
+            print(startup.USAGE)
+            return 0
+        startup.check_files(given)
         with startup.quiet_stderr():
             rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
         node = BoatNode()

@@ -92,7 +92,8 @@ class Reports:
             self._next_status = max(now, self._next_status + self._status_period)
             session, held = self._session, self._status_meter.look(now)
             self._log.info(figures.status_line(
-                Frame(session), session.steps / session.simulation.rate, held.real_time_factor))
+                Frame(session), session.steps / session.simulation.rate, held.real_time_factor,
+                paused))
         if now < self._next_diagnostics:
             return False
         self._next_diagnostics = max(now, self._next_diagnostics + DIAGNOSTICS_PERIOD)

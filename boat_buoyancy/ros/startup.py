@@ -19,6 +19,7 @@ import os
 import sys
 
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.utilities import remove_ros_args
 
 from ..physics import yaml_file
 
@@ -38,6 +39,27 @@ def executor():
 def parameter_files(arguments):
     """Return the paths that follow --params-file."""
     return [path for option, path in zip(arguments, arguments[1:]) if option == '--params-file']
+
+
+USAGE = (f'usage: {PROGRAM} [--ros-args [--params-file FILE] [-p NAME:=VALUE] '
+         '[-r __ns:=/NAME] ...]\n\n'
+         'Floats one boat: that of a parameter file as config/barge.yaml, or the default one.\n'
+         'config/default.yaml says what every parameter means, as does ros2 param describe.')
+
+
+def check_arguments(arguments):
+    """
+    Return True when the arguments ask for help; ValueError for one that nothing looks at.
+
+    ``arguments`` as of the command line, the program first.
+    """
+    own = remove_ros_args(arguments)[1:]
+    if {'-h', '--help'} & set(own):
+        return True
+    if own:
+        raise ValueError(f'expected arguments after --ros-args only, as --ros-args --params-file '
+                         f'config/barge.yaml, got {" ".join(own)}')
+    return False
 
 
 def check_files(arguments):

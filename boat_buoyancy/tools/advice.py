@@ -180,7 +180,7 @@ def report(name, advice, tolerance):
             lines += ['', _worth(advice), *_warned(advice)]
         return lines
     lines = [f'{name}: the cheapest setting that meets {tolerance:g} m. In its parameter file, '
-             'each in place of the line of that name, if it has one:', '']
+             'each in place of the line of that name in its group, if it has one:', '']
     lines += [f'    {line}' for line in best.setting.lines()]
     lines += ['', _worth(advice),
               'rate is also how often the node publishes: where that is too seldom, keep yours.',

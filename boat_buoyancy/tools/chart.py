@@ -39,7 +39,8 @@ def parser():
     """Return the argument parser."""
     made = command_line.OneLineParser(prog=PROGRAM, description=DESCRIPTION)
     made.add_argument('scenes', metavar='SCENE', nargs='*',
-                      help='parameter file, as config/barge.yaml')
+                      help='parameter file, as config/barge.yaml; without --tolerance the '
+                           'scene of the third picture')
     made.add_argument('--out', metavar='DIR', default='.', help='folder to write to [.]')
     made.add_argument('--tolerance', metavar='METRES',
                       help='print the cheapest setting of each scene that is this accurate')
@@ -62,6 +63,9 @@ def work(arguments, progress):
              if getattr(arguments, name) not in (None, False)]
     if len(asked) > 1:
         raise ValueError(f'--{asked[0]} and --{asked[1]}: expected one of them')
+    if arguments.quick and asked == ['tolerance']:
+        raise ValueError('--quick and --tolerance: expected one of them, advice is as quick as it '
+                         'can be')
     if arguments.scenes and asked in (['speed'], ['stability']):
         raise ValueError(f'--{asked[0]}: expected no SCENE, got {arguments.scenes[0]}')
     {'tolerance': _advise, 'speed': _speed, 'stability': _stability}.get(
@@ -99,7 +103,7 @@ def _speed(arguments, progress):
 
 def _stability(arguments, progress):
     from .stability_chart import draw_stability
-    path = draw_stability(arguments.out, quick=arguments.quick, progress=progress)
+    path = draw_stability(_folder(arguments.out), quick=arguments.quick, progress=progress)
     progress.clear()
     print(path)
 
@@ -108,7 +112,8 @@ def _chart(arguments, progress):
     from .chart_run import write_chart
     lines = write_chart(arguments.out, arguments.scenes, arguments.quick, progress)
     progress.clear()
-    print(*lines, sep='\n')
+    print(*lines, f'Written to {arguments.out}: speed_accuracy.png, .csv, .txt, _model.png, '
+          '_front*.png', sep='\n')
 
 
 def _folder(path):

@@ -18,6 +18,7 @@ from dataclasses import replace
 import multiprocessing
 import os
 from pathlib import Path
+import signal
 
 from . import chart_plots, chart_summary, chart_table, front, hull_accuracy, time_stepping
 
@@ -66,7 +67,9 @@ def measure_errors(items, quick, progress):
     rows, found = [], {name: [] for name in items}
     # Started afresh, not forked: the linear algebra under NumPy may have threads of its own.
     context = multiprocessing.get_context('spawn')
-    with context.Pool(min(PROCESSES, os.cpu_count() or 1)) as pool:
+    # Ctrl-C reaches the whole group; only the first process has something to say to it.
+    with context.Pool(min(PROCESSES, os.cpu_count() or 1), signal.signal,
+                      (signal.SIGINT, signal.SIG_IGN)) as pool:
         for number, (task, part) in enumerate(pool.imap(_do, work, chunksize=1)):
             progress(f'errors: {number + 1} of {len(work)}')
             if work[number][0] is front.measured:
