@@ -136,9 +136,9 @@ from boat_buoyancy.ros.template import Template
 rclpy.init()
 node, rate = Node('boat_buoyancy'), float(sys.argv[1])
 publisher = node.create_publisher(PoseStamped, 'pose', 10)
-kept = PoseStamped()
-template = Template(kept)
-stamp, pose = stamp_of(template, kept.header.stamp), pose_of(template, kept.pose)
+kept, made = PoseStamped(), PoseStamped()
+template = Template(made)
+stamp, pose = stamp_of(template, made.header.stamp), pose_of(template, made.pose)
 numbers = (1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0)
 def fill(message):
     message.header.stamp.sec, message.header.stamp.nanosec = 1, 2
