@@ -19,6 +19,7 @@ from functools import cached_property, partial
 import math
 import multiprocessing
 import os
+import signal
 import sys
 import time
 
@@ -89,7 +90,9 @@ def measure_alone(quick, rounds):
     before = dict(os.environ)
     os.environ.update(ONE_THREAD)
     try:
-        with multiprocessing.get_context('spawn').Pool(1) as pool:
+        # Ctrl-C reaches both processes; only this one has something to say to it.
+        with multiprocessing.get_context('spawn').Pool(
+                1, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
             return pool.apply(_measure_all, (quick, rounds))
     finally:
         os.environ.clear()
