@@ -262,10 +262,11 @@ def main(arguments=None):
         signal.signal(number, lambda *_: stop.append(1))
     try:
         given = sys.argv if arguments is None else arguments
+        # Files first: what finds the arguments of ROS reads them, too, and says less.
+        startup.check_files(given)
         if startup.check_arguments(given):
             print(startup.USAGE)
             return 0
-        startup.check_files(given)
         with startup.quiet_stderr():
             rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
         node = BoatNode()
