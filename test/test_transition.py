@@ -246,6 +246,7 @@ def in_the_fade_and_alone(old, new, then):
     ({}, irregular(2)), (irregular(3), {}), (irregular(2), irregular(3)),
     (irregular(4), irregular(2)), (irregular(3, 1.0, 5), irregular(2, -1.0, 9))])
 def test_heave_acceleration_in_a_fade_is_within_what_either_irregular_sea_alone_gives(old, new):
+    # Not of every pair: see the long test, and doc/long_runs.md.
     old, new = load_scene(old).sea, load_scene(new).sea
     faded, _, settled = in_the_fade_and_alone(old, new, 5000)
     assert faded <= settled
@@ -273,8 +274,9 @@ def test_heave_acceleration_in_fades_between_any_irregular_seas():
     ([0.15, 3.0, 0.0, 0.0], [0.2, 4.0, 0.5, 0.0]), ([], SWELL)])
 def test_heave_acceleration_in_a_fade_of_regular_waves_is_far_below_that_of_a_start_in_them(
         old, new):
-    # Settled in one wave a boat feels the same at every crest. No surface at all can come to
-    # rest from it, or turn into another, within two seconds and feel no more.
+    # Settled in one wave a boat feels the same at every crest, and a fade of two seconds makes it
+    # feel more. From rest to a wave's crest without more than its own acceleration takes at least
+    # omega T = 2, so that for more than 6.3 s no surface at all could.
     faded, started, _ = in_the_fade_and_alone(Sea(old), Sea(new), 1)
     assert faded < 0.5 * started
 
