@@ -17,7 +17,7 @@
 from pathlib import Path
 import re
 
-from boat_buoyancy.physics import load_scene, State, yaml_file
+from boat_buoyancy.physics import load_scene, State, parameter_file
 from boat_buoyancy.physics.boat import body_frame, center_of_mass_state
 from boat_buoyancy.physics.parameters import PARAMETERS
 from boat_buoyancy.physics.quaternion import from_roll_pitch_yaw, to_roll_pitch_yaw
@@ -75,7 +75,7 @@ def test_the_scene_ships(name):
 def test_every_line_of_a_scene_has_its_unit_and_what_raising_it_changes(name):
     text = (CONFIG / f'{name}.yaml').read_text(encoding='utf-8')
     lines = text.splitlines()
-    for parameter in yaml_file.parse(text):
+    for parameter in parameter_file.parse(text):
         row, = (i for i, line in enumerate(lines)
                 if re.match(rf'\s+{parameter.rpartition(".")[2]}: \S', line)
                 and belongs(lines, i, parameter))
@@ -105,7 +105,7 @@ def test_no_line_is_longer_than_the_code_allows(name):
 
 @pytest.mark.parametrize('name', NAMES)
 def test_numbers_have_a_decimal_point_as_ros_wants_them(name):
-    for parameter, value in yaml_file.read(CONFIG / f'{name}.yaml').items():
+    for parameter, value in parameter_file.read(CONFIG / f'{name}.yaml').items():
         kind = PARAMETERS[parameter].kind
         items = value if isinstance(value, list) else [value]
         if kind.startswith('float'):
@@ -125,7 +125,7 @@ def test_it_floats_at_its_draft_and_upright_for_a_minute(name):
 
 @pytest.mark.parametrize('name', CALM)
 def test_it_comes_through_half_a_minute_of_waves_after_a_drop(name):
-    scene = load_scene({**yaml_file.read(CONFIG / f'{name}.yaml'), 'sea.sea_state': 2})
+    scene = load_scene({**parameter_file.read(CONFIG / f'{name}.yaml'), 'sea.sea_state': 2})
     heights, angles = run(placed(scene, lift=0.5), 30.0)
     assert np.abs(heights).max() < 3.0
     # Nothing takes the roll of the first three in waves of their own period.
@@ -221,7 +221,7 @@ def test_step_3_ends_heave_and_roll_within_a_few_swings_and_follows_the_current(
         assert still < 0.003 and swinging > 0.03
 
     def carried(step):
-        values = yaml_file.read(CONFIG / f'{STEPS[step]}.yaml')
+        values = parameter_file.read(CONFIG / f'{STEPS[step]}.yaml')
         sim = load_scene({**values, 'sea.current': [1.0, 0.0]}).simulation()
         run(sim, 2.0)
         return sim.state.velocity[0]
@@ -233,7 +233,7 @@ def test_step_3_ends_heave_and_roll_within_a_few_swings_and_follows_the_current(
 
 def test_step_3_stays_upright_in_a_sea_that_rolls_step_2_over():
     def greatest_roll(step):
-        values = yaml_file.read(CONFIG / f'{STEPS[step]}.yaml')
+        values = parameter_file.read(CONFIG / f'{STEPS[step]}.yaml')
         sim = load_scene({**values, 'sea.sea_state': 2, 'sea.direction': 1.57}).simulation()
         return np.abs(run(sim, 60.0)[1][:, 0]).max()
 
@@ -253,7 +253,7 @@ def test_step_4_rights_itself_from_beyond_90_degrees():
 def test_step_4_fills_its_probes_less_often():
     def full(step):
         """Return the part of the time that some probe is full."""
-        values = yaml_file.read(CONFIG / f'{STEPS[step]}.yaml')
+        values = parameter_file.read(CONFIG / f'{STEPS[step]}.yaml')
         scene = load_scene({**values, 'sea.sea_state': 2})
         sim, count = scene.simulation(), 0
         for _ in range(3000):
@@ -274,7 +274,7 @@ def test_step_4_ends_a_roll_in_half_the_time():
 
 
 def test_step_4_glides_ahead_and_holds_sideways():
-    scene = load_scene({**yaml_file.read(CONFIG / 'v4_tuned.yaml'), 'damping.probe': 0.0})
+    scene = load_scene({**parameter_file.read(CONFIG / 'v4_tuned.yaml'), 'damping.probe': 0.0})
     sim = scene.simulation(state=State(scene.start.position, velocity=[0.1, 0.1, 0.0]))
     run(sim, 1.0)
     np.testing.assert_allclose(sim.state.velocity[:2], [0.098, 0.09], rtol=1e-6)
@@ -282,7 +282,7 @@ def test_step_4_glides_ahead_and_holds_sideways():
 
 def test_step_4_pitches_more_slowly():
     def zero_crossings(step):
-        values = yaml_file.read(CONFIG / f'{STEPS[step]}.yaml')
+        values = parameter_file.read(CONFIG / f'{STEPS[step]}.yaml')
         scene = load_scene({**values, 'damping.probe': 0.0})
         _, angles = run(placed(scene, pitch=0.02), 10.0)
         return np.count_nonzero(np.diff(np.sign(angles[:, 1])))
@@ -300,7 +300,7 @@ def test_the_barge_is_20_by_6_by_3_m_with_its_weight_1_8_m_up():
 
 def test_the_barge_rolls_at_the_period_of_its_metacentric_height():
     still = {name: [1.0] for name in RETENTION} | {'damping.probe': 0.0}
-    scene = load_scene({**yaml_file.read(CONFIG / 'barge.yaml'), **still})
+    scene = load_scene({**parameter_file.read(CONFIG / 'barge.yaml'), **still})
     _, angles = run(placed(scene, roll=0.02), 40.0, every=1)
     roll = angles[:, 0]
     down = np.flatnonzero((roll[:-1] > 0.0) & (roll[1:] <= 0.0))

@@ -18,7 +18,7 @@ import math
 from pathlib import Path
 import re
 
-from boat_buoyancy.physics import load_scene, yaml_file
+from boat_buoyancy.physics import load_scene, parameter_file
 from boat_buoyancy.physics.parameter_values import checked
 from boat_buoyancy.physics.parameters import check_names, PARAMETERS
 import numpy as np
@@ -156,7 +156,7 @@ def test_a_name_like_no_other_gets_the_list():
 
 def test_the_default_file_gives_every_default():
     given = {name: tuple(value) if isinstance(value, list) else value
-             for name, value in yaml_file.read(DEFAULT).items()}
+             for name, value in parameter_file.read(DEFAULT).items()}
     assert given == {name: parameter.default for name, parameter in PARAMETERS.items()
                      if parameter.default is not None and not name.startswith('probes.')}
     assert load_scene(DEFAULT).values == load_scene({}).values
@@ -170,7 +170,7 @@ def uncommented(text):
 
 
 def test_the_lines_left_out_of_the_default_file_show_what_is_derived():
-    shown = yaml_file.parse(uncommented(DEFAULT.read_text(encoding='utf-8')))
+    shown = parameter_file.parse(uncommented(DEFAULT.read_text(encoding='utf-8')))
     assert list(shown) == list(PARAMETERS)
     example = {name: shown.pop(name) for name in list(shown)
                if name.startswith('probes.') and name != 'probes.law' or name == 'sea.waves'}

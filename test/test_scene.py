@@ -102,10 +102,10 @@ def test_a_name_given_twice_is_refused():
 
 def test_a_file_and_its_path_as_text_make_the_same_scene(tmp_path):
     path = tmp_path / 'scene.yaml'
-    path.write_text('/**:\n  ros__parameters:\n    boat:\n      mass: 1e3\n    rate: 010\n'
+    path.write_text('/**:\n  ros__parameters:\n    boat:\n      mass: 1.0e+3\n    rate: 50\n'
                     '    use_sim_time: true\n    qos_overrides: {a: 1}\n')
     assert load_scene(path).values == load_scene(str(path)).values == load_scene(
-        {'boat.mass': 1000.0, 'rate': 8.0}).values
+        {'boat.mass': 1000.0, 'rate': 50.0}).values
 
 
 def test_an_error_in_a_file_names_the_file(tmp_path):
@@ -118,10 +118,11 @@ def test_an_error_in_a_file_names_the_file(tmp_path):
     (None, 'cannot be read: No such file or directory; expected a parameter file'),
     ('/**:\n  ros__parameters:\n    boat: [1.0\n', 'expected YAML, got an error: '),
     ('/**:\n  ros__parameters:\n    rate: "100.0"\n', 'rate: expected a finite number'),
-    ('/**:\n  ros__parameters:\n    hull.size: [4, 2.0, 1.0]\n', 'expected values of one type'),
+    ('/**:\n  ros__parameters:\n    rate: 1e2\n', 'got 1e2 (line 3): write 100.0'),
+    ('/**:\n  ros__parameters:\n    hull.size: [4, 2.0, 1.0]\n', 'write [4.0, 2.0, 1.0]'),
     ('/**:\n  ros__parameters:\n    hull.size: []\n', 'hull.size: expected 3 numbers, got 0'),
     ('/**:\n  ros__parameters:\n    probes.positions: []\n', 'at least one probe, got 0'),
-    ('/**:\n  ros__parameters:\n    sea.waves: [[1.0, 2.0, 0.0, 0.0]]\n', 'got a nested list'),
+    ('/**:\n  ros__parameters:\n    sea.waves: [[1.0, 2.0, 0.0, 0.0]]\n', 'expected one flat list'),
     ('boat:\n  ros__parameters:\n    rate: 5.0\n', '"boat_buoyancy:", under it "ros__par'),
     ('/**:\n  rate: 5.0\n', '/**: expected "ros__parameters:" and nothing else under it'),
     ('/a/boat_buoyancy:\n  ros__parameters: {}\n/b/boat_buoyancy:\n  ros__parameters: {}\n',

@@ -20,7 +20,7 @@ import os
 
 import numpy as np
 
-from . import parameters, stability, yaml_file
+from . import parameters, stability, parameter_file
 from .assembly import assembled_boat, assembled_sea, assembled_start
 from .boat import Boat, State
 from .flotation import flotation_warnings
@@ -94,8 +94,8 @@ def load_scene(source):
     if not isinstance(source, (str, os.PathLike)):
         raise ValueError('scene: expected the path of a parameter file or a dict of parameters, '
                          f'got {source!r}')
-    values = {name: value for name, value in yaml_file.read(source).items()
-              if name.partition('.')[0] not in yaml_file.ROS_OWN}
+    values = {name: value for name, value in parameter_file.read(source).items()
+              if name.partition('.')[0] not in parameter_file.ROS_OWN}
     try:
         return scene_from_values(values)
     except ValueError as error:

@@ -27,7 +27,7 @@ from rclpy.parameter import Parameter
 
 from ..physics import parameters, scene as scenes
 from ..physics.parameters import PARAMETERS
-from ..physics.yaml_file import ROS_OWN
+from ..physics.parameter_file import ROS_OWN
 
 TYPES = {
     'float': Parameter.Type.DOUBLE, 'int': Parameter.Type.INTEGER, 'bool': Parameter.Type.BOOL,

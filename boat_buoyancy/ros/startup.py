@@ -21,7 +21,7 @@ import sys
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.utilities import remove_ros_args
 
-from ..physics import yaml_file
+from ..physics import parameter_file
 
 try:
     from rclpy.experimental.events_executor import EventsExecutor
@@ -71,9 +71,9 @@ def check_files(arguments):
     """
     for path in parameter_files(arguments):
         try:
-            yaml_file.read(path)
+            parameter_file.read(path)
         except ValueError as error:
-            if yaml_file.FORM not in str(error):
+            if parameter_file.FORM not in str(error):
                 raise
 
 
