@@ -37,83 +37,130 @@ LIVE = ('boat.mass', 'boat.inertia', 'probes.floatiness', 'probes.stiffness', 'p
         'damping.', 'sea.', 'thrust.timeout')
 
 
-@pytest.fixture(params=PARAMETERS.values(), ids=lambda parameter: parameter.name)
-def parameter(request):
-    return request.param
+NUMBERS = ('float', 'int', 'float_array', 'int_array')
 
 
-def test_the_default_has_the_kind_that_is_named(parameter):
-    if parameter.default is None:
-        assert parameter.name in DERIVED
+def test_every_default_has_the_kind_that_is_named_and_passes_its_own_checks():
+    for name, parameter in PARAMETERS.items():
+        default = parameter.default
+        if name in DERIVED:
+            assert default is None, name
+            continue
+        assert type(default) is KINDS[parameter.kind], name
+        if parameter.kind.endswith('_array'):
+            item = KINDS[parameter.kind.removesuffix('_array')]
+            assert {type(value) for value in default} == {item}, name
+        assert checked(name, default) == default, name
+
+
+def test_every_number_has_a_unit_and_says_what_raising_it_does():
+    raised = re.compile('(Higher|More|Longer|higher|Wider|Shallower|Another)')
+    for name, parameter in PARAMETERS.items():
+        assert parameter.description.endswith('.'), name
+        assert bool(parameter.unit) == (name not in NO_NUMBER), name
+        assert raised.search(parameter.description) or name in NO_NUMBER, name
+
+
+def test_every_scalar_number_has_a_range_and_nothing_else_has():
+    for name, parameter in PARAMETERS.items():
+        if parameter.kind in ('float', 'int'):
+            low, high = parameter.limits
+            assert math.isfinite(low) and math.isfinite(high) and low < high, name
+        else:
+            assert parameter.limits is None, name
+
+
+def test_what_may_change_while_running_is_what_is_promised():
+    assert {name for name, parameter in PARAMETERS.items() if not parameter.read_only} == {
+        name for name in PARAMETERS if name.startswith(LIVE)}
+
+
+def refusal(name, value):
+    with pytest.raises(ValueError) as raised:
+        checked(name, value)
+    message = str(raised.value)
+    assert message.startswith(name) and '\n' not in message
+    assert 'expected ' in message and re.search('got |is ', message), message
+    return message
+
+
+def alone_and_in_place(parameter, number, others):
+    """Yield a number as the value of a parameter, or in each place of its lists among others."""
+    if not parameter.kind.endswith('_array'):
+        yield number
         return
-    assert type(parameter.default) is KINDS[parameter.kind]
-    if parameter.kind.endswith('_array'):
-        item = float if parameter.kind == 'float_array' else int
-        assert all(type(value) is item for value in parameter.default)
+    for length in parameter.lengths or (4, 12):
+        for place in range(length):
+            yield [others] * place + [number] + [others] * (length - 1 - place)
 
 
-def test_the_default_passes_its_own_checks(parameter):
-    if parameter.default is not None:
-        assert checked(parameter.name, parameter.default) == parameter.default
+def test_the_ends_of_every_range_are_taken_and_the_next_number_beyond_is_refused():
+    # Waves have ends of their own.
+    ranged = [p for p in PARAMETERS.values() if p.kind in NUMBERS and p.name != 'sea.waves']
+    assert len(ranged) == len(PARAMETERS) - len(NO_NUMBER) - 1
+    for parameter in ranged:
+        whole = parameter.kind.startswith('int')
+        low, high = parameter.at_least, parameter.at_most
+        below = low if low is None else low - 1 if whole else np.nextafter(low, -math.inf)
+        if parameter.above is not None:
+            below, low = parameter.above, np.nextafter(parameter.above, math.inf)
+        above = high + 1 if whole else np.nextafter(high, math.inf)
+        kind = int if whole else float
+        for end in (low, high):
+            for value in alone_and_in_place(parameter, kind(end), kind(high)):
+                taken = checked(parameter.name, value)
+                assert taken == (tuple(value) if isinstance(value, list) else value)
+        for beyond in (below, above):
+            for value in alone_and_in_place(parameter, kind(beyond), kind(high)):
+                assert ': expected ' in refusal(parameter.name, value)
 
 
-def test_every_number_has_a_unit_and_says_what_raising_it_does(parameter):
-    numeric = parameter.name not in NO_NUMBER
-    assert bool(parameter.unit) == numeric
-    assert re.search(r'(Higher|More|Longer|higher|Wider|Shallower|Another)', parameter.description
-                     ) or not numeric
-    assert parameter.description.endswith('.')
-
-
-def test_every_scalar_number_has_a_range(parameter):
-    if parameter.kind in ('float', 'int'):
-        low, high = parameter.limits
-        assert math.isfinite(low) and math.isfinite(high) and low < high
-    else:
-        assert parameter.limits is None
-
-
-def test_what_may_change_while_running_is_what_is_promised(parameter):
-    assert parameter.read_only == (not parameter.name.startswith(LIVE))
-
-
-def test_one_beyond_either_end_of_the_range_is_refused(parameter):
-    if parameter.limits is None:
-        return
-    low, high = parameter.limits
-    kind = KINDS[parameter.kind]
-    below = low if parameter.above is not None else (
-        low - 1 if kind is int else np.nextafter(low, -math.inf))
-    above = high + 1 if kind is int else np.nextafter(high, math.inf)
-    for value in (kind(below), kind(above)):
-        with pytest.raises(ValueError, match=re.escape(parameter.name) + ': expected'):
-            checked(parameter.name, value)
-    assert checked(parameter.name, kind(high)) == high
+def test_the_ends_of_a_row_of_waves_are_taken_and_the_next_number_beyond_is_refused():
+    row = [1.0, 5.0, 0.0, 0.0]
+    for place, low, high in ((0, 0.0, 1000.0), (1, 0.01, 1e6)):
+        for end, beyond in ((low, -math.inf), (high, math.inf)):
+            row[place] = end
+            assert checked('sea.waves', [*row, *row]) == (*row, *row)
+            row[place] = float(np.nextafter(end, beyond))
+            assert refusal('sea.waves', [1.0, 5.0, 0.0, 0.0, *row]).startswith(
+                f'sea.waves: row 2 is {row}, expected ')
+        row[place] = high
 
 
 def wrong_values(parameter):
-    nothing = {'float': 'word', 'int': 1.0, 'bool': 1, 'string': 5, 'float_array': 1.0,
-               'int_array': 1}[parameter.kind]
-    yield nothing
-    if parameter.kind in ('float', 'float_array'):
-        for bad in (math.nan, math.inf, -math.inf, True, '1.0', None, 10 ** 400):
-            yield bad if parameter.kind == 'float' else [bad] * (parameter.lengths or (4,))[0]
-    if parameter.kind == 'int':
-        yield from (True, '1', math.nan, 10 ** 30)
-    if parameter.lengths:
-        yield from ([], [1.0] * 7, [[1.0, 1.0, 1.0]])
+    """Return values of a wrong kind, alone and in every place of a list, and wrong lists."""
+    if parameter.kind == 'bool':
+        return [0, 1, 1.0, 'true', 'yes', None, [True]]
     if parameter.kind == 'string':
-        yield from ('', True, ['leapfrog'], 'no such/ word', '/slash')
+        return ['', True, 5, None, ['leapfrog'], 'no such/ word', '/slash', 'a\tb']
+    numbers = [math.nan, math.inf, -math.inf, True, '1', 'word', None, 10 ** 400, {}]
+    if parameter.kind.startswith('int'):
+        numbers += [1.0, 1.5, 10 ** 30]
+    values = [value for number in numbers for value in alone_and_in_place(parameter, number, 1)]
+    if not parameter.kind.endswith('_array'):
+        return [*values, [1], []]
+    values += [1, 1.0, 'word', None, {}, [[1.0], [1.0, 1.0]]]
+    if parameter.lengths:
+        values += [[1] * length for length in range(8) if length not in parameter.lengths]
+        values.append([[1] * parameter.lengths[0]])
+    return values
 
 
-def test_every_wrong_value_is_refused_in_one_line_that_names_it(parameter):
-    for value in wrong_values(parameter):
-        with pytest.raises(ValueError) as raised:
-            checked(parameter.name, value)
-        message = str(raised.value)
-        assert message.startswith(parameter.name), message
-        assert 'expected ' in message and re.search('got |is ', message)
-        assert '\n' not in message
+def test_every_wrong_value_of_every_parameter_is_refused_in_one_line_that_names_it():
+    for name, parameter in PARAMETERS.items():
+        for value in wrong_values(parameter):
+            refusal(name, value)
+    for count in (1, 2, 3, 5):
+        assert f'four numbers a row, got {count} numbers' in refusal('sea.waves', [1.0] * count)
+
+
+def test_every_choice_is_taken_and_a_frame_is_any_word():
+    for name, parameter in PARAMETERS.items():
+        if parameter.kind == 'string':
+            for word in parameter.choices or ('map', 'boat/base_link', 'y'):
+                assert checked(name, word) == word
+            assert parameter.choices or name in ('world_frame', 'body_frame')
+    assert checked('publish_clock', True) is True and checked('publish_clock', False) is False
 
 
 def test_an_integer_for_a_double_is_taken_as_the_number():
@@ -122,10 +169,10 @@ def test_an_integer_for_a_double_is_taken_as_the_number():
     assert checked('hull.size', [4, 2, 1]) == (4.0, 2.0, 1.0)
 
 
-@pytest.mark.parametrize('value', [[1.0, 2.0, 3.0], (1, 2, 3), np.array([1.0, 2.0, 3.0]),
-                                   np.array([1, 2, 3]), np.array([1, 2, 3], np.float32)])
-def test_an_array_may_be_a_list_a_tuple_or_an_array(value):
-    assert checked('boat.center_of_mass', value) == (1.0, 2.0, 3.0)
+def test_an_array_may_be_a_list_a_tuple_or_an_array():
+    for value in ([1.0, 2.0, 3.0], (1, 2, 3), np.array([1.0, 2.0, 3.0]), np.array([1, 2, 3]),
+                  np.array([1, 2, 3], np.float32)):
+        assert checked('boat.center_of_mass', value) == (1.0, 2.0, 3.0)
 
 
 def test_rows_of_probes_and_waves_may_stay_rows():
@@ -138,15 +185,16 @@ def test_rows_of_probes_and_waves_may_stay_rows():
     assert checked('sea.waves', []) == ()
 
 
-@pytest.mark.parametrize('wrong, meant', [
-    ('boat.mas', 'boat.mass'), ('mass', 'boat.mass'), ('boat_mass', 'boat.mass'),
-    ('boat.centre_of_mass', 'boat.center_of_mass'), ('probe.floatiness', 'probes.floatiness'),
-    ('floatines', 'probes.floatiness'), ('Rate', 'rate'), ('sea.wave', 'sea.waves'),
-    ('hull.sizes', 'hull.size'), ('damping.angular_retension', 'damping.angular_retention')])
-def test_a_misspelt_name_gets_the_nearest_as_a_suggestion(wrong, meant):
-    with pytest.raises(ValueError) as raised:
-        check_names([wrong])
-    assert str(raised.value) == f'{wrong}: no such parameter, did you mean {meant}?'
+def test_a_misspelt_name_gets_the_nearest_as_a_suggestion():
+    for wrong, meant in (
+            ('boat.mas', 'boat.mass'), ('mass', 'boat.mass'), ('boat_mass', 'boat.mass'),
+            ('boat.centre_of_mass', 'boat.center_of_mass'), ('Rate', 'rate'),
+            ('probe.floatiness', 'probes.floatiness'), ('floatines', 'probes.floatiness'),
+            ('sea.wave', 'sea.waves'), ('hull.sizes', 'hull.size'),
+            ('damping.angular_retension', 'damping.angular_retention')):
+        with pytest.raises(ValueError) as raised:
+            check_names([wrong])
+        assert str(raised.value) == f'{wrong}: no such parameter, did you mean {meant}?'
 
 
 def test_a_name_like_no_other_gets_the_list():

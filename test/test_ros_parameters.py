@@ -48,6 +48,8 @@ def parameter_file(folder, text):
     ('boat: {mass: -5.0}', 'boat.mass: expected'),
     ('boat: {mass: .nan}', 'boat.mass: expected a finite number'),
     ('boat: {mass: .inf}', 'boat.mass: expected a finite number'),
+    ('boat: {mass: 1e3}', 'got 1e3 (line 3): write 1000.0'),
+    ('start: {orientation: [0, 0, 0.2]}', 'write [0.0, 0.0, 0.2]'),
     ('boat: {mass: heavy}', "got 'heavy'"),
     ('boat: {mas: 5.0}', 'boat.mas: no such parameter, did you mean boat.mass?'),
     ('boat: {inertia: [1.0, 2.0]}', 'boat.inertia: expected 3 or 6 numbers, got 2'),

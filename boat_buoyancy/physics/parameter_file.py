@@ -51,7 +51,7 @@ def read(path):
     a nested list, no section for this node.
     """
     try:
-        with open(path, encoding='utf-8-sig') as file:
+        with open(path, encoding='utf-8') as file:
             return parse(file.read())
     except OSError as error:
         reason = f'cannot be read: {error.strerror}; expected a parameter file'
