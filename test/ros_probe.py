@@ -86,9 +86,10 @@ def run_and_end(commands, seconds=0.0):
 
     After so many ``seconds`` each gets a SIGINT; 0 = never.
     """
-    done = subprocess.run([sys.executable, '-c', RUNS, json.dumps(commands), str(seconds)], cwd=ROOT,
-                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.PIPE, text=True, timeout=30.0)
+    done = subprocess.run(
+        [sys.executable, '-c', RUNS, json.dumps(commands), str(seconds)], cwd=ROOT,
+        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+        timeout=60.0)
     ends, lines = [], []
     for line in done.stderr.splitlines():
         if line.startswith('status '):

@@ -106,10 +106,11 @@ class ParameterNode(Node):
 
     def declare_parameters(self, namespace, parameters, ignore_override=False):
         """
-        Declare as rclpy does, but at the start all that was given to us and nothing else.
+        Declare as rclpy does, but take what files and command line give whatever its type.
 
-        rclpy's constructor calls this with what was given: it would refuse `[]`, for which rcl
-        knows no type, and it declares its own, with the right type, afterwards.
+        rclpy's constructor hands all that was given to this function.  Left alone it would refuse
+        `[]`, which has no type in a file; and ROS's own parameters are left out, because rclpy
+        declares them itself afterwards and checks their types then.
         """
         if ignore_override:
             parameters = [one for one in parameters if not is_ros_own(one[0])]

@@ -52,7 +52,7 @@ def unpack_waves(raw):
 
 
 def read_waves(values):
-    """Return rows of waves (W, 4) of the numbers of a message, or raise `Refused`; none: flat."""
+    """Return rows of waves (W, 4) from the numbers of a message, or raise `Refused`."""
     try:
         return checked_waves(values)
     except ValueError as error:
