@@ -44,7 +44,7 @@ setup(
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
-            'buoyancy_node = boat_buoyancy.ros.node:main',
+            'buoyancy_node = boat_buoyancy.ros.main:main',
             'buoyancy_report = boat_buoyancy.tools.report:main',
             'buoyancy_simulate = boat_buoyancy.tools.simulate:main',
             'buoyancy_chart = boat_buoyancy.tools.chart:main',

@@ -27,7 +27,7 @@ os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 101))
 os.environ.setdefault('MPLBACKEND', 'Agg')
 
 from matplotlib import pyplot  # noqa: E402
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 import numpy as np  # noqa: E402
 from ros_probe import BoatProcess, Probe, ROOT  # noqa: E402
 from visualization_msgs.msg import Marker, MarkerArray  # noqa: E402
@@ -78,10 +78,10 @@ def draw(axes, marker, middle, reach):
     elif marker.type == Marker.SPHERE_LIST:
         axes.scatter(*points_of(marker).T, s=90, c=[color_of(c) for c in marker.colors],
                      edgecolors='k', depthshade=False)
-    elif marker.type == Marker.ARROW:
-        tail, tip = points_of(marker)
-        axes.quiver(*tail, *(tip - tail), color=color_of(marker.color), linewidth=2.0,
-                    arrow_length_ratio=0.25)
+    elif marker.type == Marker.LINE_LIST:
+        axes.add_collection3d(Line3DCollection(
+            points_of(marker).reshape(-1, 2, 3), colors=[color_of(marker.color)],
+            linewidths=3.0))
     elif marker.type == Marker.TRIANGLE_LIST:
         triangles = points_of(marker).reshape(-1, 3, 3)
         near = (np.abs(triangles[:, :, :2] - middle) <= reach).all(axis=(1, 2))

@@ -20,6 +20,8 @@ The probe spins only while it waits, in the thread of the test, with a context o
 
 from collections import Counter
 from itertools import count
+import json
+import math
 import os
 from pathlib import Path
 import signal
@@ -48,6 +50,19 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 NAME = 'boat_buoyancy'
 
+# Runs the program once for every list of arguments, in one process: that spares its imports.
+RUNS = """
+import json, signal, sys
+from boat_buoyancy.ros import node  # before the clock ticks
+from boat_buoyancy.ros.main import main
+signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
+seconds = float(sys.argv[2])
+for arguments in json.loads(sys.argv[1]):
+    sys.argv = ['buoyancy_node', *arguments]
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    print('status', main(), file=sys.stderr, flush=True)
+"""
+
 _namespaces = count()
 
 
@@ -63,6 +78,27 @@ def as_argument(value):
     if isinstance(value, (list, tuple)):
         return '[' + ', '.join(as_argument(item) for item in value) + ']'
     return str(value)
+
+
+def run_and_end(commands, seconds=0.0):
+    """
+    Return (exit status, lines on standard error) of the program for each list of arguments.
+
+    After so many ``seconds`` each gets a SIGINT; 0 = never.
+    """
+    done = subprocess.run(
+        [sys.executable, '-c', RUNS, json.dumps(commands), str(seconds)], cwd=ROOT,
+        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+        timeout=60.0)
+    ends, lines = [], []
+    for line in done.stderr.splitlines():
+        if line.startswith('status '):
+            ends.append((int(line.split()[1]), lines))
+            lines = []
+        else:
+            lines.append(line)
+    assert len(ends) == len(commands), done.stderr
+    return ends
 
 
 class BoatProcess:
@@ -251,6 +287,12 @@ class Probe:
 
 def _messages(values):
     return [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
+
+
+def yaw_of(pose):
+    """Return the heading of a Pose in rad."""
+    q = pose.orientation
+    return math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
 
 
 def nanoseconds(stamp):

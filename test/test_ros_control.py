@@ -12,19 +12,22 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Reset, pause, single steps, faults of the motion, and who else is there."""
+"""Start, reset, pause, single steps, another place, faults of the motion, a namesake."""
 
 import math
 import re
 import subprocess
 import sys
 
+from boat_buoyancy.physics import load_scene
+from boat_buoyancy.ros.complaints import Refused
+from boat_buoyancy.ros.initial_pose import read_place
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import WrenchStamped
+from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
 import numpy as np
 import pytest
 from ros_probe import (BEST_EFFORT, BoatProcess, LATCHED, NAME, nanoseconds, Probe, ROOT,
-                       wrench)
+                       run_and_end, wrench, yaw_of)
 from std_msgs.msg import Float64MultiArray
 
 
@@ -134,20 +137,55 @@ def test_a_second_node_of_the_same_name_is_warned_of(boat, probe):
         boat.wait_for_log('another node is called')
 
 
-@pytest.mark.parametrize('arguments, code, said', [
-    (['config/barge.yaml'], 2, 'expected arguments after --ros-args only, .* got config/barge'),
-    (['--params-file', 'config/barge.yaml'], 2, 'expected arguments after --ros-args only'),
-    (['--help'], 0, 'usage: buoyancy_node')])
-def test_arguments_that_nothing_looks_at_are_refused_in_one_line(arguments, code, said):
-    ended = subprocess.run([sys.executable, '-m', 'boat_buoyancy.ros.node', *arguments], cwd=ROOT,
-                           capture_output=True, text=True, timeout=30.0)
-    assert ended.returncode == code
-    assert re.search(said, ended.stdout + ended.stderr)
-    assert code == 0 or len(ended.stderr.splitlines()) == 1
+def test_initialpose_puts_the_boat_there_floating_at_its_draft(probe):
+    place = probe.publisher(PoseWithCovarianceStamped, 'initialpose')
+    message = PoseWithCovarianceStamped()
+    message.header.frame_id = 'odom'
+    position, orientation = message.pose.pose.position, message.pose.pose.orientation
+    position.x, position.y, position.z = 12.0, -7.0, 99.0
+    orientation.z, orientation.w = math.sin(0.4), math.cos(0.4)
+    assert probe.set_paused(True).success
+    probe.poses.clear()
+    place.publish(message)
+    # A paused boat is shown where it was put.
+    probe.until(lambda: probe.poses and probe.poses[-1].pose.position.x == 12.0)
+    pose = probe.poses[-1].pose
+    assert pose.position.y == -7.0 and yaw_of(pose) == pytest.approx(0.8, abs=1e-9)
+    assert pose.position.z == pytest.approx(0.5 - 2000.0 / 8200.0, abs=1e-9)
+    assert probe.set_paused(False).success
 
 
-def test_waves_that_no_water_could_have_are_warned_of():
-    with BoatProcess({'status_period': 0.0}) as boat, Probe(boat.namespace) as probe:
-        waves = probe.publisher(Float64MultiArray, 'wave_parameters')
-        waves.publish(Float64MultiArray(data=[5.0, 2.0, 0.0, 0.0]))
-        boat.wait_for_log('The waves are steeper than water can be')
+@pytest.mark.parametrize('field, value, said', [
+    ('frame', 'map', "expected frame_id empty or 'odom', got 'map'"),
+    ('x', math.nan, 'expected finite numbers'), ('w', 0.0, 'expected a unit quaternion'),
+    ('w', math.inf, 'expected finite numbers'), ('x', 1e10, 'expected x and y of at most 1e+09')])
+def test_a_bad_initialpose_is_refused(field, value, said):
+    message = PoseWithCovarianceStamped()
+    message.pose.pose.orientation.w = 1.0
+    target = {'frame': message.header, 'x': message.pose.pose.position,
+              'w': message.pose.pose.orientation}[field]
+    setattr(target, {'frame': 'frame_id'}.get(field, field), value)
+    with pytest.raises(Refused, match=re.escape(said)):
+        read_place(message, load_scene({}))
+
+
+def test_arguments_that_nothing_looks_at_are_refused_in_one_line():
+    bare, unmarked, helped = run_and_end(
+        [['config/barge.yaml'], ['--params-file', 'config/barge.yaml'], ['--help']])
+    for status, lines in (bare, unmarked):
+        assert (status, len(lines)) == (2, 1)
+        assert 'expected arguments after --ros-args only' in lines[0]
+    assert bare[1][0].endswith('got config/barge.yaml')
+    assert helped == (0, [])
+
+
+@pytest.mark.parametrize('module', ['rclpy', 'rosgraph_msgs'])
+def test_without_ros_the_program_says_in_one_line_what_it_needs(module):
+    ended = subprocess.run(
+        [sys.executable, '-c', f'import sys; sys.modules[{module!r}] = None; '
+         'from boat_buoyancy.ros.main import main; sys.exit(main())'],
+        cwd=ROOT, capture_output=True, text=True, timeout=30.0)
+    assert ended.returncode == 2
+    line, = ended.stderr.splitlines()
+    assert line.startswith('buoyancy_node: needs ROS 2 Jazzy') and module in line
+    assert './install.sh ros' in line

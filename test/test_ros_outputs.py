@@ -18,7 +18,6 @@ import signal
 
 from boat_buoyancy.physics import load_scene
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped
 import numpy as np
 import pytest
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
@@ -38,20 +37,19 @@ def boat():
         yield process
 
 
-@pytest.fixture
+@pytest.fixture(scope='module')
 def probe(boat):
-    """Look at it with a probe per test."""
+    """Look at it with one probe."""
     with Probe(boat.namespace) as one:
         yield one
 
 
 @pytest.fixture(scope='module')
-def second_of_messages(boat):
+def second_of_messages(probe):
     """Return pose, twist, odom and probe_depth of one second and more."""
-    with Probe(boat.namespace, 'listener') as one:
-        lists = one.listen_to_boat()
-        one.until(lambda: all(len(messages) > 120 for messages in lists))
-        return lists
+    lists = probe.listen_to_boat()
+    probe.until(lambda: all(len(messages) > 120 for messages in lists))
+    return [list(messages) for messages in lists]
 
 
 def test_it_rests_at_the_draft_of_the_box(second_of_messages):
@@ -87,9 +85,8 @@ def test_frames_are_named_as_the_parameters_say(second_of_messages):
     assert twists[0].header.frame_id == odometry[0].child_frame_id == 'base_link'
 
 
+@pytest.mark.usefixtures('second_of_messages')
 def test_outputs_are_reliable_and_volatile_and_waves_are_latched(boat, probe):
-    probe.listen(PoseStamped, 'pose')
-    probe.until(lambda: probe.received['pose'])
     for topic in ('pose', 'twist', 'odom', 'probe_depth', 'probes', 'markers'):
         info, = probe.node.get_publishers_info_by_topic(f'{boat.namespace}/{topic}')
         assert info.qos_profile.reliability == ReliabilityPolicy.RELIABLE, topic
@@ -106,8 +103,9 @@ def test_who_comes_late_still_hears_the_sea_in_force(probe):
     assert list(waves[0].data) == []
 
 
+@pytest.mark.usefixtures('second_of_messages')
 def test_probes_are_a_cloud_with_place_depth_and_force(probe):
-    clouds, poses = probe.listen(PointCloud2, 'probes'), probe.listen(PoseStamped, 'pose')
+    clouds, poses = probe.listen(PointCloud2, 'probes'), probe.received['pose']
     probe.until(lambda: set(by_stamp(clouds)) & set(by_stamp(poses)))
     cloud = clouds[-1]
     assert [field.name for field in cloud.fields] == ['x', 'y', 'z', 'depth', 'force']
@@ -127,18 +125,32 @@ def test_markers_show_hull_probes_forces_and_water(probe):
     for marker in arrays[-1].markers:
         kinds.setdefault(marker.ns, []).append(marker)
     assert {name: len(markers) for name, markers in kinds.items()} == {
-        'hull': 1, 'probes': 1, 'forces': 4, 'water': 1}
-    hull, probes, water = kinds['hull'][0], kinds['probes'][0], kinds['water'][0]
+        'hull': 1, 'probes': 1, 'forces': 1, 'water': 1}
+    hull, probes, forces, water = arrays[-1].markers
     assert hull.type == Marker.CUBE
     assert (hull.scale.x, hull.scale.y, hull.scale.z) == (4.0, 2.0, 1.0)
     assert len(probes.points) == len(probes.colors) == 4
     assert len(water.points) % 3 == 0 and len({p.z for p in water.points}) == 1
-    # An arrow starts at its probe and points up.
-    for arrow, place in zip(kinds['forces'], probes.points):
-        assert arrow.points[0] == place and arrow.points[1].z > place.z
+    # A line starts at its probe and goes straight up, a quarter of the length for its share.
+    assert forces.type == Marker.LINE_LIST and forces.points[::2] == probes.points
+    for place, tip in zip(forces.points[::2], forces.points[1::2]):
+        assert (tip.x, tip.y) == (place.x, place.y)
+        assert tip.z - place.z == pytest.approx(0.25 * 20 ** 0.5)
     # Ten times a second, not a hundred.
     stamps = [nanoseconds(array.markers[0].header.stamp) for array in arrays]
     assert min(np.diff(stamps)) >= 5 * PERIOD
+
+
+def test_two_thousand_probes_are_shown_without_losing_a_step():
+    with BoatProcess({'hull.probes': [50, 40], 'rate': 20.0, 'status_period': 0.0}) as boat, \
+            Probe(boat.namespace) as one:
+        arrays = one.listen(MarkerArray, 'markers')
+        boat.wait_for_log('draft')
+        one.until(lambda: len(arrays) >= 3)
+        assert len(arrays[-1].markers) == 4
+        assert len(arrays[-1].markers[2].points) == 2 * 2000
+        # What takes longer than a second makes it fall behind.
+        assert 'fell behind' not in boat.log
 
 
 def test_diagnostics_say_how_the_steps_are_doing(boat, probe):
@@ -168,8 +180,7 @@ def test_the_log_says_what_was_loaded_and_how_it_goes(boat):
 
 
 @pytest.mark.parametrize('signals', [
-    [signal.SIGINT], [signal.SIGTERM], [signal.SIGINT] * 3,
-    [signal.SIGTERM, signal.SIGINT, signal.SIGTERM]])
+    [signal.SIGTERM], [signal.SIGINT] * 3, [signal.SIGTERM, signal.SIGINT, signal.SIGTERM]])
 def test_it_ends_with_0_and_without_a_traceback_on_signals(signals):
     with BoatProcess() as boat:
         boat.wait_for_log('draft')

@@ -27,6 +27,8 @@ from .integrators import METHODS
 from .waves import MAX_COMPONENTS
 
 SHAPES = ('box',)
+# The kinds of waves that a sea can be asked for, one at a time: the parameters of each.
+WAVE_KINDS = (('sea.waves',), ('sea.sea_state',), ('sea.significant_height', 'sea.peak_period'))
 NODE_NAME = 'boat_buoyancy'
 
 

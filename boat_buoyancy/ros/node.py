@@ -25,46 +25,41 @@ import time
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
 import rclpy
-from rclpy.event_handler import SubscriptionEventCallbacks
-from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
-from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
-from . import startup
+from . import qos, startup
+from .complaints import Refused
 from .drive import ClockDrive, SteadyDrive
-from .inputs import (Duplicates, MAX_WAVE_BYTES, read_place, read_waves, read_wrench, Refused,
-                     unpack_waves)
-from .markers import Markers, PERIOD as MARKER_PERIOD
-from .messages import ClockOutput, Frame, Outputs, WavesOutput
-from .parameters import declare, given_values, LiveParameters
+from .initial_pose import read_place
+from .markers import Markers
+from .messages import ClockOutput, Outputs
+from .parameters import LiveParameters, ParameterNode
 from .reports import Reports
 from .session import Session
+from .thrust import read_wrench
+from .wave_messages import WavesInput, WavesOutput
 from ..physics.parameters import NODE_NAME
 from ..physics.scene import scene_from_values, sea_warnings
 
-BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-VOLATILE = QoSProfile(depth=10)
-LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-SEARCH_PERIOD = 0.25  # s between looks for who latches waves
 IDLE = 0.05  # s between looks at the signals and clocks when nothing is due
 
 
-class BoatNode(Node):
+class BoatNode(ParameterNode):
     """A boat on its water, as a ROS 2 node."""
 
     def __init__(self):
         """Read the parameters and start; ValueError says what is wrong with them."""
-        super().__init__(NODE_NAME, allow_undeclared_parameters=True)
-        given = given_values(self._parameter_overrides)
+        super().__init__(NODE_NAME)
+        given = self.given_values()
         scene = scene_from_values(given)
-        startup.check_time(scene.values, self.get_parameter('use_sim_time').value)
         self._own_clock = scene.values['publish_clock']
         self._sim_time = self.get_parameter('use_sim_time').value
+        startup.check_time(scene.values, self._sim_time)
         wall = not self._own_clock and not self._sim_time
+        # Whatever makes the first simulation take long is said here, before it is made.
         self.session = Session(scene)
-        declare(self, scene)
+        self.declare(scene)
         LiveParameters(self, given, scene, self._change)
         self._paused = False
         now = time.monotonic()
@@ -73,12 +68,19 @@ class BoatNode(Node):
         for sentence in startup.remarks(self, given, scene.values):
             self.get_logger().warning(sentence)
 
-        self._outputs, self._waves_output = Outputs(self, scene), WavesOutput(self)
+        self._outputs, self._markers = Outputs(self, scene), Markers(self, scene)
         self._clock_output = ClockOutput(self) if self._own_clock else None
-        self._markers, self._duplicates = Markers(self, scene), Duplicates()
-        self._listen()
+        self._waves_output = WavesOutput(self)
+        self._waves_input = WavesInput(self, self._reports.complaints, self._on_waves)
+        guarded = self._reports.complaints.guarded
+        self.create_subscription(
+            WrenchStamped, 'thrust', guarded('thrust', self._on_thrust), qos.THRUST)
+        self.create_subscription(PoseWithCovarianceStamped, 'initialpose',
+                                 guarded('initialpose', self._on_place), qos.REQUEST)
+        self.create_service(Trigger, '~/reset', self._on_reset)
+        self.create_service(SetBool, '~/set_paused', self._on_set_paused)
+        self.create_service(Trigger, '~/step', self._on_step)
 
-        self._next_search = self._next_markers = now
         self._drive = (
             ClockDrive(scene.rate, lambda: self.get_clock().now().nanoseconds,
                        self.get_logger().warning) if self._sim_time else
@@ -88,42 +90,6 @@ class BoatNode(Node):
         self._waves_output.publish(self.session.sea)
         if not self._sim_time:
             self._publish()
-
-    def _listen(self):
-        """Create the subscriptions and services."""
-        self.create_subscription(WrenchStamped, 'thrust', self._guarded('thrust', self._on_thrust),
-                                 BEST_EFFORT)
-        self._waves_topic = self._subscribe_to_waves('volatile', VOLATILE).topic_name
-        self._latched_waves = None
-        self.create_subscription(
-            PoseWithCovarianceStamped, 'initialpose',
-            self._guarded('initialpose', self._on_place), VOLATILE)
-        self.create_service(Trigger, '~/reset', self._on_reset)
-        self.create_service(SetBool, '~/set_paused', self._on_set_paused)
-        self.create_service(Trigger, '~/step', self._on_step)
-
-    def _subscribe_to_waves(self, name, qos, **options):
-        return self.create_subscription(
-            Float64MultiArray, 'wave_parameters',
-            self._guarded('wave_parameters', lambda message: self._on_waves(message, name)),
-            qos, raw=True, **options)
-
-    def _look_for_latched_waves(self):
-        """
-        Subscribe to latched waves as long as somebody latches them.
-
-        A volatile subscription misses what was latched before it came; a latched one, if it
-        were always there, would make every ordinary publisher warn that it is not heard.
-        """
-        latched = any(info.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
-                      for info in self.get_publishers_info_by_topic(self._waves_topic))
-        if latched and self._latched_waves is None:
-            self._latched_waves = self._subscribe_to_waves(
-                'latched', LATCHED, event_callbacks=SubscriptionEventCallbacks(
-                    incompatible_qos=lambda _: None, use_default_callbacks=False))
-        elif not latched and self._latched_waves is not None:
-            self.destroy_subscription(self._latched_waves)
-            self._latched_waves = None
 
     # What is done over and over.
 
@@ -163,13 +129,8 @@ class BoatNode(Node):
 
     def _look_around(self, now):
         """Do what goes by wall time: markers, reports, looking for who latches waves."""
-        if now >= self._next_markers:
-            self._next_markers = now + MARKER_PERIOD
-            if self._markers.wanted:
-                self._markers.publish(Frame(self.session))
-        if now >= self._next_search:
-            self._next_search = now + SEARCH_PERIOD
-            self._look_for_latched_waves()
+        self._markers.look(self.session, now)
+        self._waves_input.look(now)
         halted = self._paused or self.session.fault
         if self._reports.look(self._paused, now) and halted and self._clock_output:
             # Who comes while time stands still has to learn the time, too.
@@ -177,28 +138,12 @@ class BoatNode(Node):
 
     # What others ask for.
 
-    def _guarded(self, topic, act):
-        """Return a callback that refuses what is wrong instead of ending the node."""
-        def callback(message):
-            try:
-                act(message)
-            except Refused as refused:
-                self._reports.complaints.add(topic, refused, time.monotonic())
-            except Exception as error:  # whatever a message contains, the node stays
-                self._reports.complaints.add(
-                    topic, Refused('not understood', f'{topic}: {error!r}'), time.monotonic())
-        return callback
-
     def _on_thrust(self, message):
         wrench, in_world = read_wrench(message, self.session.scene)
         self.session.thrust.hold(wrench, in_world, time.monotonic())
 
-    def _on_waves(self, raw, subscription):
-        # Of a message that is too long to be good, the length has to do.
-        content = raw if len(raw) <= MAX_WAVE_BYTES else len(raw)
-        if self._duplicates.is_copy(subscription, content, time.monotonic()):
-            return
-        if self.session.set_waves(read_waves(unpack_waves(raw))):
+    def _on_waves(self, rows):
+        if self.session.set_waves(rows):
             self._waves_output.publish(self.session.sea)
             self.get_logger().info(f'waves: {len(self.session.sea.waves)} in force')
             for sentence in sea_warnings(self.session.sea):

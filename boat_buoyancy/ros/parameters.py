@@ -23,19 +23,17 @@ from array import array
 
 from rcl_interfaces.msg import (FloatingPointRange, IntegerRange, ParameterDescriptor,
                                 SetParametersResult)
+from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from ..physics import parameters, scene as scenes
-from ..physics.parameters import PARAMETERS
 from ..physics.parameter_file import ROS_OWN
+from ..physics.parameters import PARAMETERS, WAVE_KINDS
 
 TYPES = {
     'float': Parameter.Type.DOUBLE, 'int': Parameter.Type.INTEGER, 'bool': Parameter.Type.BOOL,
     'string': Parameter.Type.STRING, 'float_array': Parameter.Type.DOUBLE_ARRAY,
     'int_array': Parameter.Type.INTEGER_ARRAY}
-# A set that asks for one kind of waves replaces the others.
-KINDS_OF_WAVES = (('sea.waves',), ('sea.sea_state',),
-                  ('sea.significant_height', 'sea.peak_period'))
 
 
 def is_ros_own(name):
@@ -49,19 +47,6 @@ def plain(parameter):
         # `[]` in a file: rcl knows no type for it.
         return []
     return list(parameter.value) if isinstance(parameter.value, array) else parameter.value
-
-
-def given_values(overrides):
-    """
-    Return {name: value} of the parameters that files and command line gave the node.
-
-    ``overrides`` {name: rclpy Parameter}.  ValueError for a `use_sim_time` that is not a bool.
-    """
-    sim_time = overrides.get('use_sim_time')
-    if sim_time is not None and not isinstance(sim_time.value, bool):
-        raise ValueError(f'use_sim_time: expected true or false, got {sim_time.value!r}')
-    return {name: plain(parameter) for name, parameter in overrides.items()
-            if not is_ros_own(name)}
 
 
 def ros_parameter(name, value):
@@ -107,11 +92,45 @@ def constraints(parameter):
     return ', '.join(words)
 
 
-def declare(node, scene):
-    """Declare on a node every parameter that a scene has in force, with its value."""
-    node.declare_parameters('', [
-        (name, ros_parameter(name, value).value, descriptor(PARAMETERS[name]))
-        for name, value in scene.values.items()], ignore_override=True)
+class ParameterNode(Node):
+    """
+    A node that is given parameters of any name and type, and declares ours when they are right.
+
+    Main arguments: ``name`` of the node.
+    """
+
+    def __init__(self, name):
+        """Take what files and command line give."""
+        super().__init__(name, allow_undeclared_parameters=True,
+                         automatically_declare_parameters_from_overrides=True)
+
+    def declare_parameters(self, namespace, parameters, ignore_override=False):
+        """
+        Declare as rclpy does, but take what files and command line give whatever its type.
+
+        rclpy's constructor hands all that was given to this function.  Left alone it would refuse
+        `[]`, which has no type in a file; and ROS's own parameters are left out, because rclpy
+        declares them itself afterwards and checks their types then.
+        """
+        if ignore_override:
+            parameters = [one for one in parameters if not is_ros_own(one[0])]
+            for _, _, description in parameters:
+                description.dynamic_typing = True
+        return super().declare_parameters(namespace, parameters, ignore_override)
+
+    def given_values(self):
+        """Return {name: value} of the parameters that files and command line gave the node."""
+        return {name: plain(parameter)
+                for name, parameter in self.get_parameters_by_prefix('').items()
+                if not is_ros_own(name)}
+
+    def declare(self, scene):
+        """Declare every parameter that a scene has in force, with its value and description."""
+        for name in self.given_values():
+            self.undeclare_parameter(name)
+        self.declare_parameters('', [
+            (name, ros_parameter(name, value).value, descriptor(PARAMETERS[name]))
+            for name, value in scene.values.items()], ignore_override=True)
 
 
 class LiveParameters:
@@ -162,9 +181,10 @@ class LiveParameters:
                 given.pop(parameter.name, None)
             else:
                 given[parameter.name] = plain(parameter)
-        for kind in KINDS_OF_WAVES:
+        # A set that asks for one kind of waves replaces the others.
+        for kind in WAVE_KINDS:
             if any(given.get(name) for name in kind if name in names):
-                for other in KINDS_OF_WAVES:
+                for other in WAVE_KINDS:
                     for name in other:
                         if other is not kind and name not in names:
                             given.pop(name, None)

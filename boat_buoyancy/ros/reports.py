@@ -20,8 +20,8 @@ It looks and speaks; it changes nothing.
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from . import figures
-from .inputs import Complaints
+from . import figures, qos
+from .complaints import Complaints
 from .messages import Frame, set_stamp
 
 DIAGNOSTICS_PERIOD = 1.0  # s
@@ -41,7 +41,7 @@ class Reports:
         self.complaints = Complaints(self._log.warning)
         rate = session.simulation.rate
         self._meter, self._status_meter = figures.Meter(rate, now), figures.Meter(rate, now)
-        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', qos.OUTPUT)
         self._status = DiagnosticStatus(
             name=f'{node.get_name()}: motion', hardware_id=node.get_fully_qualified_name())
         self._next_diagnostics = now + DIAGNOSTICS_PERIOD

@@ -24,14 +24,15 @@ from fractions import Fraction
 
 import numpy as np
 
-from .inputs import ThrustLatch
 from .pacing import NANOSECONDS, Timeline
+from .thrust import ThrustLatch
 from ..physics.hydrostatics import rest_state
+from ..physics.parameters import WAVE_KINDS
 from ..physics.simulation import SimulationError
 from ..physics.transition import fade, SeaTransition
 
-# Parameters that ask for waves of one kind or another; the rest of sea.* only shapes them.
-WAVES = frozenset(('sea.waves', 'sea.sea_state', 'sea.significant_height', 'sea.peak_period'))
+# Parameters that ask for waves; the rest of sea.* only shapes them.
+WAVES = frozenset(name for kind in WAVE_KINDS for name in kind)
 
 
 class Session:

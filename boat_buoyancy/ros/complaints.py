@@ -1,0 +1,80 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Messages that are refused: the checks they share, counted by reason, and said now and then."""
+
+from collections import Counter
+import math
+import time
+
+
+class Refused(ValueError):
+    """A message that is not acted on: ``kind`` to count it by, the sentence to show."""
+
+    def __init__(self, kind, sentence):
+        """Keep both."""
+        super().__init__(sentence)
+        self.kind = kind
+
+
+def check_finite(name, values):
+    """Raise `Refused` unless all numbers of a message are finite."""
+    if not all(map(math.isfinite, values)):
+        raise Refused('not finite', f'{name}: expected finite numbers, got {list(values)}')
+
+
+def check_frame(name, frame, *expected):
+    """Raise `Refused` unless a message's frame id is empty or one of those expected."""
+    if frame and frame not in expected:
+        shown = frame if len(frame) <= 40 else frame[:40] + '...'
+        raise Refused('unknown frame', f'{name}: expected frame_id empty or '
+                      f'{" or ".join(map(repr, expected))}, got {shown!r}')
+
+
+class Complaints:
+    """
+    Counts refused messages by reason, and lets through one sentence per reason and period.
+
+    ``say`` is called with the sentence.
+    """
+
+    PERIOD = 5.0  # s
+
+    def __init__(self, say):
+        """Count from zero."""
+        self._say, self._last, self._unsaid = say, {}, Counter()
+        self.counts = Counter()
+
+    def guarded(self, topic, act):
+        """Return a callback that never raises: what ``act`` (message) refuses is counted."""
+        def callback(message):
+            try:
+                act(message)
+            except Refused as refused:
+                self.add(topic, refused, time.monotonic())
+            except Exception as error:  # whatever a message contains, the node stays
+                self.add(topic, Refused('not understood', f'{topic}: {error!r}'),
+                         time.monotonic())
+        return callback
+
+    def add(self, topic, refused, now):
+        """Count a `Refused` message and say so, unless the same was said just before."""
+        key = f'{topic}: {refused.kind}'
+        self.counts[key] += 1
+        if now - self._last.get(key, -math.inf) < self.PERIOD:
+            self._unsaid[key] += 1
+            return
+        more = self._unsaid.pop(key, 0)
+        self._last[key] = now
+        self._say(f'{refused}' + (f' ({more} more like it before)' if more else ''))

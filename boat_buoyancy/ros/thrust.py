@@ -1,0 +1,82 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Thrust: a wrench as it comes, and how long the last one acts."""
+
+from .complaints import check_finite, check_frame, Refused
+from ..physics.quaternion import rotation_matrix, to_body
+
+# No thruster lifts a thousand times its boat: what asks for that is a fault.
+MAX_THRUST = 1000.0  # boat weights
+
+
+def read_wrench(message, scene):
+    """
+    Return the six numbers of a WrenchStamped, and True when they are in world axes.
+
+    ``scene`` names the frames, and its boat's weight bounds what can be meant.  Raises nothing
+    but `Refused`, whatever the message contains.
+    """
+    check_frame('thrust', message.header.frame_id, scene.body_frame, scene.world_frame)
+    force, torque = message.wrench.force, message.wrench.torque
+    values = (force.x, force.y, force.z, torque.x, torque.y, torque.z)
+    check_finite('thrust', values)
+    limit = MAX_THRUST * scene.boat.weight
+    if max(map(abs, values)) > limit:
+        raise Refused('too large', f'thrust: expected at most {limit:.3g} N and N m, '
+                      f'{MAX_THRUST:g} times the weight of this boat, got {list(values)}')
+    return values, message.header.frame_id == scene.world_frame
+
+
+class ThrustLatch:
+    """
+    The last good wrench, until it is too old.
+
+    ``timeout`` s counts from reception on the steady clock, whatever the header says; 0 = hold.
+    """
+
+    def __init__(self, timeout):
+        """Hold no wrench."""
+        self.timeout = timeout
+        self.clear()
+
+    def clear(self):
+        """Forget the wrench."""
+        self._wrench, self._in_world, self._received = None, False, None
+
+    def hold(self, wrench, in_world, now):
+        """Hold six numbers, in world axes or body axes, received at ``now`` s."""
+        self._wrench, self._in_world, self._received = wrench, in_world, now
+
+    def age(self, now):
+        """Return the s since the last good wrench, None without one."""
+        return None if self._received is None else now - self._received
+
+    def expired(self, now):
+        """Return True when there is a wrench, and it is too old to act."""
+        return self._wrench is not None and 0.0 < self.timeout < now - self._received
+
+    def wrench(self, now, orientation):
+        """
+        Return the wrench that acts at ``now`` s, in body axes, or None.
+
+        ``orientation`` () -> the boat's quaternion, asked for only when it is needed: a wrench
+        in world axes keeps its direction while the boat turns under it.
+        """
+        if self._wrench is None or self.expired(now):
+            return None
+        if not self._in_world:
+            return self._wrench
+        rotation = rotation_matrix(orientation())
+        return (*to_body(rotation, self._wrench[:3]), *to_body(rotation, self._wrench[3:]))
