@@ -22,13 +22,14 @@ import shlex
 
 from boat_buoyancy.physics import load_scene, stability
 from boat_buoyancy.physics.parameters import PARAMETERS
-from boat_buoyancy.tools import chart, report, simulate
-from boat_buoyancy.tools.stability_map import predicted_loop_growth
+from boat_buoyancy.tools import report, simulate
+from boat_buoyancy.tools.chart.main import main as chart
+from boat_buoyancy.tools.chart.stability_map import predicted_loop_growth
 import pytest
 from readme import blocks, commands, ROOT, section, table, TEXT
 
 TOOLS = {'buoyancy_report': report.main, 'buoyancy_simulate': simulate.main,
-         'buoyancy_chart': chart.main}
+         'buoyancy_chart': chart}
 TOPIC_TYPES = {name: kind for name, kind, *_ in table('Topics')}
 SERVICE_TYPES = {name: kind for name, kind, *_ in table('Services')}
 

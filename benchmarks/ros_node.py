@@ -15,7 +15,7 @@
 """
 Measure what the node costs, and write doc/ros_speed.md.
 
-    python test/ros_speed.py [--seconds 10] [--out doc/ros_speed.md]
+    python benchmarks/ros_node.py [--seconds 10] [--out doc/ros_speed.md]
 
 CPU time is that of the node's process alone; subscribers are in another process.
 """
@@ -36,11 +36,13 @@ from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
 from geometry_msgs.msg import TwistStamped, WrenchStamped  # noqa: E402
 import numpy as np  # noqa: E402
 
+# What it shares with the tests: a node in a process of its own, and who listens to it.
+TEST = Path(__file__).parents[1] / 'test'
+sys.path.insert(0, str(TEST))
 from ros_probe import BEST_EFFORT, new_namespace, Probe, ROOT, wrench  # noqa: E402
 
 OUTPUTS = ('pose', 'twist', 'odom', 'probe_depth')
 RATES = (50.0, 100.0, 200.0, 500.0, 1000.0)
-HERE = Path(__file__).parent
 
 LISTENER = """
 import sys
@@ -125,40 +127,32 @@ rclpy.spin(node)
 """
 
 
-# One message a period in three ways, in turn; prints the us of each.
+# One message a period in two ways, in turn; prints the us of each.
 PUBLISH = """
 import sys, time
 import rclpy
 from geometry_msgs.msg import PoseStamped
 from rclpy.node import Node
-from boat_buoyancy.ros.messages import pose_of, set_quaternion, set_vector, stamp_of
-from boat_buoyancy.ros.template import Template
 rclpy.init()
 node, rate = Node('boat_buoyancy'), float(sys.argv[1])
 publisher = node.create_publisher(PoseStamped, 'pose', 10)
-kept, made = PoseStamped(), PoseStamped()
-template = Template(made)
-stamp, pose = stamp_of(template, made.header.stamp), pose_of(template, made.pose)
-numbers = (1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0)
+kept = PoseStamped()
 def fill(message):
     message.header.stamp.sec, message.header.stamp.nanosec = 1, 2
-    set_vector(message.pose.position, numbers[:3])
-    set_quaternion(message.pose.orientation, numbers[3:])
+    position, orientation = message.pose.position, message.pose.orientation
+    position.x, position.y, position.z = 1.0, 2.0, 3.0
+    orientation.x, orientation.y, orientation.z, orientation.w = 0.0, 0.0, 0.0, 1.0
     publisher.publish(message)
-def written():
-    stamp(1, 2)
-    pose(*numbers)
-    publisher.publish(template.content())
-ways = (lambda: fill(PoseStamped()), lambda: fill(kept), written)
-spent, count = [0, 0, 0], int(float(sys.argv[2]) * rate)
+ways = (lambda: fill(PoseStamped()), lambda: fill(kept))
+spent, count = [0] * len(ways), int(float(sys.argv[2]) * rate)
 while not publisher.get_subscription_count():
     time.sleep(0.1)
 start = time.monotonic()
-for i in range(3 * count):
+for i in range(len(ways) * count):
     time.sleep(max(0.0, start + i / rate - time.monotonic()))
     began = time.thread_time_ns()
-    ways[i % 3]()
-    spent[i % 3] += time.thread_time_ns() - began
+    ways[i % len(ways)]()
+    spent[i % len(ways)] += time.thread_time_ns() - began
 print(*(ns / count / 1e3 for ns in spent))
 """
 LOOPS = {'own loop, EventsExecutor (shipped)': SHIPPED,
@@ -178,7 +172,7 @@ class Running:
             [sys.executable, '-c', code, '--ros-args', '-r', f'__ns:={self.namespace}',
              '-p', f'rate:={rate}', *own], cwd=ROOT, stderr=subprocess.DEVNULL)
         self._listener = subprocess.Popen(
-            [sys.executable, '-c', LISTENER, self.namespace, ','.join(topics)], cwd=HERE,
+            [sys.executable, '-c', LISTENER, self.namespace, ','.join(topics)], cwd=TEST,
             stdout=subprocess.PIPE, text=True)
         self._listener.stdout.readline()
         time.sleep(3.0)
@@ -255,9 +249,9 @@ def latency(rate, count):
 
 
 def publishing(rate, seconds):
-    """Return the us of a new message, of one filled again, and of bytes written over."""
+    """Return the us of sending a new message, and one that is filled again."""
     namespace = new_namespace()
-    listener = subprocess.Popen([sys.executable, '-c', LISTENER, namespace, 'pose'], cwd=HERE,
+    listener = subprocess.Popen([sys.executable, '-c', LISTENER, namespace, 'pose'], cwd=TEST,
                                 stdout=subprocess.DEVNULL)
     try:
         found = subprocess.run(
@@ -281,7 +275,7 @@ def measure(seconds):
         cpu = next((line.split(':')[1].strip() for line in file if 'model name' in line), '?')
     yield from (
         '# What the node costs', '',
-        f'Measured by `python test/ros_speed.py --seconds {seconds:g}` on {cpu}, '
+        f'Measured by `python benchmarks/ros_node.py --seconds {seconds:g}` on {cpu}, '
         f'{os.cpu_count()} cores, Python {platform.python_version()}, NumPy {np.__version__}; '
         'default scene (4 probes, flat water), one subscribing process, localhost. Shares are of '
         'one core, of the node alone; read ratios, not absolute times.', '',
@@ -304,8 +298,7 @@ def measure(seconds):
                   f'{share / best[-1]:.2f}') for name, share in zip(LOOPS, best)]
     yield from table(('rate', 'node', 'core', 'us per period', 'over the last'), rows)
     yield from ('## Sending one PoseStamped to one subscriber, us', '')
-    yield from table(('rate', 'new message', 'message filled again',
-                      'bytes written over (shipped)'),
+    yield from table(('rate', 'new message', 'message filled again'),
                      [(f'{rate:g} Hz', *(f'{value:.0f}' for value in publishing(rate, seconds)))
                       for rate in (100.0, 1000.0)])
     yield from ('## Rate held, all default outputs', '')
