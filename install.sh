@@ -97,6 +97,7 @@ if ! .venv/bin/python -m pip --version >/dev/null 2>&1; then
   fi
 fi
 
-echo "install.sh: installing boat_buoyancy[$extras] into .venv: about $size MB and a minute"
+echo "install.sh: installing boat_buoyancy[$extras] into .venv;" \
+  "a new one takes about $size MB and a minute"
 .venv/bin/python -m pip install --quiet ".[$extras]"
 echo "install.sh: done, .venv takes $(du -sm .venv | cut -f1) MB"

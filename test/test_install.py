@@ -80,6 +80,6 @@ def test_ros_and_chart_take_numba_along_and_sizes_are_told(install, asked, insta
     done = run(*asked)
     assert done.returncode == 0, done.stderr
     before, called, after = done.stdout.splitlines()
-    assert re.search(r'into \.venv: about \d+ MB', before)
+    assert re.search(r'into \.venv; a new one takes about \d+ MB', before)
     assert called == f'called with -m pip install --quiet .[{installed}]'
     assert re.search(r'\.venv takes \d+ MB$', after)

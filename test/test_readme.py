@@ -177,7 +177,7 @@ def test_every_figure_of_the_charts_is_in_what_the_chart_wrote():
 
 
 def test_the_figures_about_stability_are_those_of_the_long_runs_and_the_loop():
-    text = section('Stable where methods fail')
+    text = section('Stable where other integrators fail')
     recorded = (ROOT / 'doc' / 'long_runs.md').read_text()
     for figure in ('2.51', '80 000'):
         assert figure in text and figure in recorded
