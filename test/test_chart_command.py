@@ -78,7 +78,9 @@ def test_quick_chart_writes_table_pictures_and_summary(capsys, tmp_path):
         rows = list(csv.DictReader(file))
     assert tuple(rows[0]) == COLUMNS
     assert {row['part'] for row in rows} == {'time stepping', 'model', 'both'}
-    assert (tmp_path / 'speed_accuracy.txt').read_text() == captured.out
+    summary, written = captured.out.rsplit('Written to ', 1)
+    assert (tmp_path / 'speed_accuracy.txt').read_text() == summary
+    assert written.startswith(f'{tmp_path}: ')
     for name in ('speed_accuracy', 'speed_accuracy_model', 'speed_accuracy_front'):
         assert Image.open(tmp_path / f'{name}.png').width == 1350
 
