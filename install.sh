@@ -1,20 +1,33 @@
 #!/bin/sh
-# Install boat_buoyancy into .venv beside this file, on a machine that has Python and no ROS:
-#
-#     ./install.sh ros          with ROS 2 Jazzy from Python wheels: enough to run the node
-#     ./install.sh ros,test     with that and what the tests need
-#     ./install.sh chart        without ROS: the physics and the command-line tools, with plots
-#
-# It comes to `python3 -m venv .venv && .venv/bin/pip install '.[ros]'`, and also works with the
-# Python of a fresh Debian or Ubuntu, which has no pip. It touches nothing outside this folder
-# and needs no root. PYTHON=... chooses the Python.
+# Install boat_buoyancy into .venv beside this file, on a machine that has Python and no ROS.
+# `./install.sh --help` says how. It comes to `python3 -m venv .venv && .venv/bin/pip install
+# '.[ros,fast]'`, and also works with the Python of a fresh Debian or Ubuntu, which has no pip.
 set -eu
 cd -- "$(dirname -- "$0")"
-extras=${1:-ros}
+
+usage() {
+  cat <<'END'
+Usage: ./install.sh [EXTRA,...]
+
+Install boat_buoyancy into .venv beside this file. It touches nothing outside this folder and
+needs no root. Extras, with commas between:
+
+  ros    ROS 2 Jazzy from Python wheels, enough to run the node (the default)
+  chart  the command-line tools with plots and charts; they need no ROS
+  test   what the tests need
+  fast   Numba, which compiles the step; ros and chart take it along
+
+  ./install.sh ros         the node
+  ./install.sh ros,test    the node, and what the tests need
+  ./install.sh chart       the physics and the command-line tools, without ROS
+
+PYTHON=... chooses the Python, 3.10 to 3.14.
+END
+}
 
 fail() {
   printf 'install.sh: %s\n' "$*" >&2
-  exit 1
+  exit 2
 }
 
 # What an active ROS or ROS venv leaves behind would be mixed into this one.
@@ -36,12 +49,26 @@ find_pip() {
   return 1
 }
 
+extras=${1:-ros}
+case $extras in
+  -h|--help) usage; exit ;;
+esac
+[ $# -le 1 ] || fail "expected one list of extras with commas between, got '$*' (try --help)"
 for extra in $(printf '%s' "$extras" | tr , ' '); do
   case $extra in
-    ros|test|chart) ;;
-    *) fail "expected ros, test or chart, several with commas between, got '$extra'" ;;
+    ros|chart|test|fast) ;;
+    *) fail "expected extras out of ros, chart, test and fast, got '$extra' (try --help)" ;;
   esac
 done
+case ",$extras," in
+  *,fast,*) ;;
+  *,ros,*|*,chart,*) extras=$extras,fast ;;
+esac
+# MB of each on Linux x86_64; the tests draw too.
+size=105
+case ",$extras," in *,ros,*) size=$((size + 165)) ;; esac
+case ",$extras," in *,fast,*) size=$((size + 205)) ;; esac
+case ",$extras," in *,test,*) size=$((size + 265)) ;; *,chart,*) size=$((size + 245)) ;; esac
 case ",$extras," in
   *,ros,*)
     [ "$(uname -s) $(uname -m)" = 'Linux x86_64' ] ||
@@ -70,5 +97,7 @@ if ! .venv/bin/python -m pip --version >/dev/null 2>&1; then
   fi
 fi
 
-echo "install.sh: installing boat_buoyancy[$extras] into .venv; with ROS 270 MB, about a minute"
+echo "install.sh: installing boat_buoyancy[$extras] into .venv;" \
+  "a new one takes about $size MB and a minute"
 .venv/bin/python -m pip install --quiet ".[$extras]"
+echo "install.sh: done, .venv takes $(du -sm .venv | cut -f1) MB"

@@ -35,6 +35,8 @@ setup(
         # ROS 2 Jazzy for a machine without ROS; one with ROS needs none of these.
         'ros': ['ros-jazzy-rclpy', 'ros-jazzy-common-interfaces', 'ros-jazzy-rmw-fastrtps-cpp'],
         'chart': ['matplotlib', 'scipy'],
+        # Compiles the step; without it everything works, slower.
+        'fast': ['numba'],
         'test': ['hypothesis', 'matplotlib', 'pytest', 'scipy'],
     },
     zip_safe=True,
@@ -47,7 +49,7 @@ setup(
             'buoyancy_node = boat_buoyancy.ros.main:main',
             'buoyancy_report = boat_buoyancy.tools.report:main',
             'buoyancy_simulate = boat_buoyancy.tools.simulate:main',
-            'buoyancy_chart = boat_buoyancy.tools.chart:main',
+            'buoyancy_chart = boat_buoyancy.tools.chart.main:main',
         ],
     },
 )

@@ -20,7 +20,7 @@ from boat_buoyancy.physics.forces import buoyancy, System
 from boat_buoyancy.physics.hull import box_hull
 from boat_buoyancy.physics.hydrostatics import load_at, rest_state
 from boat_buoyancy.physics.righting import righting_arms
-from boat_buoyancy.tools.clipping import box_surface, submerged
+from boat_buoyancy.tools.chart.hull_clipping import box_surface, submerged
 import numpy as np
 import pytest
 from scipy.optimize import brentq

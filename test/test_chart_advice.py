@@ -19,9 +19,9 @@ from pathlib import Path
 
 from boat_buoyancy.physics.hydrostatics import rest_state
 from boat_buoyancy.physics.scene import load_scene
-from boat_buoyancy.tools import advice, front, settings
-from boat_buoyancy.tools.settings import Setting, Trial
-from boat_buoyancy.tools.stretch import stretches
+from boat_buoyancy.tools.chart import advice, pareto_front, settings
+from boat_buoyancy.tools.chart.settings import Setting, Trial
+from boat_buoyancy.tools.chart.stretch import stretches
 import numpy as np
 import pytest
 import yaml
@@ -60,9 +60,9 @@ def solved_once():
 
 def known_costs(trial):
     """Return step costs that do not depend on what else the machine does."""
-    return {(probes, method): cost * (1.0 + 0.005 * Setting(method, 1.0, probes).probe_count)
+    return {(probes, name): cost * (1.0 + 0.005 * Setting(name, 1.0, probes).probe_count)
             for probes in settings.choices(trial.stretch.given)
-            for method, cost in COSTS.items()}
+            for name, cost in COSTS.items()}
 
 
 def advise(given, tolerance):
@@ -203,16 +203,16 @@ def test_the_check_is_another_seed_another_stretch_or_another_start():
 
 def test_front_is_what_nothing_else_beats_and_can_be_typed_in():
     given = {'start.position': [0.0, 0.0, 0.4]}
-    items = front.scene_items(given)
-    found = [(Setting('leapfrog', rate, (2, 2)), 1.0 / rate) for rate in front.QUICK_RATES]
-    found += [(Setting('rk4', rate, (2, 2)), 2.0 / rate) for rate in front.QUICK_RATES]
-    rows = front.rows('scene', items, found, True)
+    items = pareto_front.scene_items(given)
+    found = [(Setting('leapfrog', rate, (2, 2)), 1.0 / rate) for rate in pareto_front.QUICK_RATES]
+    found += [(Setting('rk4', rate, (2, 2)), 2.0 / rate) for rate in pareto_front.QUICK_RATES]
+    rows = pareto_front.rows('scene', items, found, True)
     best = [row for row in rows if row.front]
-    assert {row.method for row in best} == {'leapfrog'}
+    assert {row.integrator for row in best} == {'leapfrog'}
     for row in best:
         cheaper = [other.error for other in rows if other.cpu < row.cpu and other.front]
         assert all(error > row.error for error in cheaper)
-        load_scene({**given, 'integrator': row.method, 'rate': row.rate, 'substeps': 1,
+        load_scene({**given, 'integrator': row.integrator, 'rate': row.rate, 'substeps': 1,
                     'hull.probes': [int(n) for n in row.placement.split('x')]}).simulation()
 
 

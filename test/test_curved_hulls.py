@@ -20,9 +20,9 @@ from boat_buoyancy.physics.backend import ONE_BOAT
 from boat_buoyancy.physics.forces import evaluate, System
 from boat_buoyancy.physics.hydrostatics import rest_state
 from boat_buoyancy.physics.waves import Sea
-from boat_buoyancy.tools import hull_accuracy
-from boat_buoyancy.tools.clipping import submerged
-from boat_buoyancy.tools.shapes import BOX, nodes, SHAPES, V_HULL, WIGLEY
+from boat_buoyancy.tools.chart import hull_accuracy
+from boat_buoyancy.tools.chart.hull_clipping import submerged
+from boat_buoyancy.tools.chart.hull_shapes import BOX, nodes, SHAPES, V_HULL, WIGLEY
 import numpy as np
 import pytest
 

@@ -16,8 +16,8 @@
 
 from boat_buoyancy.physics.boat import State
 from boat_buoyancy.physics.waves import Sea
-from boat_buoyancy.tools.accuracy import apart, reference_error, Run
-from boat_buoyancy.tools.reference import solve
+from boat_buoyancy.tools.chart.accuracy import apart, reference_error, Run
+from boat_buoyancy.tools.chart.reference_solution import solve
 from boats import (asymmetric_boat, box_boat, DRAFT, HEAVE, MASS, reference_boat, undamped,
                    wind_sea)
 import numpy as np

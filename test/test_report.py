@@ -24,6 +24,7 @@ from boat_buoyancy.physics.simulation import SimulationError
 from boat_buoyancy.tools import command_line
 from boat_buoyancy.tools.report import main
 import numpy as np
+import programs
 import pytest
 
 ROOT = Path(__file__).parents[1]
@@ -76,16 +77,7 @@ def text(capsys):
 
 
 def refused(arguments, capsys):
-    """Return the one line of an error, after checking that it is one and the exit code 2."""
-    try:
-        code = main(arguments)
-    except SystemExit as leaving:
-        code = leaving.code
-    printed = capsys.readouterr()
-    assert code == 2 and printed.out == ''
-    line, rest = printed.err.split('\n', 1)
-    assert rest == '' and line.startswith('buoyancy_report: ')
-    return line
+    return programs.refused(main, 'buoyancy_report', arguments, capsys)
 
 
 def is_number(value):

@@ -14,10 +14,10 @@
 
 """The stability chart shows what the shipped code does, and its prediction agrees with it."""
 
-from boat_buoyancy.tools import stability_chart
-from boat_buoyancy.tools.stability_map import (bobbing_boat, loop_growth, measure_map,
-                                               predicted_angle, predicted_loop_growth,
-                                               scene_points, shipped_scenes)
+from boat_buoyancy.tools.chart import stability_plot
+from boat_buoyancy.tools.chart.stability_map import (bobbing_boat, loop_growth, measure_map,
+                                                     predicted_angle, predicted_loop_growth,
+                                                     scene_points, shipped_scenes)
 from boats import METHODS
 import numpy as np
 import pytest
@@ -59,9 +59,9 @@ def test_every_shipped_scene_is_marked_at_three_rates():
 
 
 def test_the_chart_is_written_as_a_picture(tmp_path, monkeypatch):
-    monkeypatch.setitem(stability_chart.GRIDS, True, (6, 4, 60))
+    monkeypatch.setitem(stability_plot.GRIDS, True, (6, 4, 60))
     said = []
-    path = stability_chart.draw_stability(tmp_path / 'new', quick=True, progress=said.append)
+    path = stability_plot.draw_stability(tmp_path / 'new', quick=True, progress=said.append)
     assert path == tmp_path / 'new' / 'stability.png'
     assert path.read_bytes().startswith(b'\x89PNG')
     assert len(said) == len(METHODS)

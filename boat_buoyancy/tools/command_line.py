@@ -15,6 +15,7 @@
 """What the command-line programs share: their scene argument, and how they say what is wrong."""
 
 import argparse
+from importlib import import_module
 import os
 import sys
 
@@ -40,6 +41,25 @@ def scene_parser(program, description):
     parser.add_argument('scene', metavar='SCENE',
                         help='parameter file of the boat and its sea, as config/barge.yaml')
     return parser
+
+
+def require_extra(extra, what, *modules):
+    """
+    Raise ValueError with what to install where a module of an extra cannot be imported.
+
+    ``extra`` as in ``pip install "boat_buoyancy[EXTRA]"``; ``what`` needs it, as '--plot'.
+    """
+    missing = {}
+    for module in modules:
+        try:
+            import_module(module)
+        except ImportError as error:
+            missing[module] = error
+    if missing:
+        packages = ' '.join(f'python3-{module}' for module in missing)
+        raise ValueError(
+            f'{what} needs {" and ".join(missing)} ({"; ".join(map(str, missing.values()))}): '
+            f'pip install "boat_buoyancy[{extra}]", or on Ubuntu apt install {packages}')
 
 
 def run(program, work):

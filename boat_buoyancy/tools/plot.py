@@ -14,8 +14,6 @@
 
 """The plot of a run: heave, roll, pitch and the depths of the probes over time."""
 
-from importlib import import_module
-
 import numpy as np
 
 ENDINGS = ('.png', '.pdf', '.svg')
@@ -25,17 +23,6 @@ WATER, BOAT, ROLL, PITCH = '#56B4E9', '#000000', '#D55E00', '#0072B2'
 # A boat at rest is a line in the middle, not round-off over the full height.
 LEAST_HEIGHT, LEAST_ANGLE = 0.1, 2.0
 # With more probes than colours the lines are drawn alike: their spread is what can be read.
-
-
-def require_matplotlib(option):
-    """Raise ValueError with what to install when matplotlib is missing."""
-    try:
-        import_module('matplotlib.figure')
-        import_module('PIL.Image')
-    except ImportError:
-        raise ValueError(
-            f'{option} needs matplotlib, which is not installed: pip install '
-            '"boat_buoyancy[chart]", or apt install python3-matplotlib') from None
 
 
 def write(path, recording):

@@ -39,7 +39,7 @@ def figures(scene):
     Return what ``--json`` prints of a `Scene`: names with their units, to numbers or None.
 
     None stands for what does not exist: the draft of a boat that sinks, the period of what does
-    not oscillate, the limit of a step method without one.
+    not oscillate, the limit of an integrator without one.
     """
     boat, simulation = scene.boat, scene.simulation()
     floating = hydrostatics.floats(boat)

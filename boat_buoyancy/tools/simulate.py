@@ -49,7 +49,7 @@ def parser():
     option('--thrust', metavar=THRUST, type=float, nargs=6, default=[0.0] * 6,
            help='constant push, N and N m, body axes, at the body origin')
     option('--rate', metavar='HZ', type=float, help="periods per second, instead of the scene's")
-    option('--integrator', metavar='NAME', help="step method, instead of the scene's")
+    option('--integrator', metavar='NAME', help="integrator, instead of the scene's")
     option('--substeps', metavar='N', type=int,
            help='integrator steps per period; 0 = chosen from the stability limit')
     return arguments
@@ -70,7 +70,7 @@ def check_outputs(arguments):
             if path.suffix.lower() not in endings:
                 raise ValueError(f'{name}: expected a file name that ends in '
                                  f'{" or ".join(endings)}, got {str(path)!r}')
-            plot.require_matplotlib(name)
+            command_line.require_extra('chart', name, 'matplotlib')
     for path in filter(None, (arguments.csv, arguments.plot, arguments.animate)):
         existed = path.exists()
         path.open('ab').close()

@@ -24,16 +24,16 @@ class Row:
     """
     One measurement; fields that do not apply are None and stay empty in the file.
 
-    ``part`` 'time stepping', 'model' or 'both'; ``scene`` or hull; ``method`` of stepping;
-    ``rate`` steps per s; ``probes``, how many; ``placement`` and ``law`` of them; ``quantity``
-    that was compared, where it is no motion; ``evaluations`` of the force and ``cpu`` s per
-    simulated second; ``position``, ``rotation`` and ``error`` (both in one) m; ``percent`` of
-    the true value; ``front`` 1 on the front of settings that nothing else beats, else 0.
+    ``part`` 'time stepping', 'model' or 'both'; ``scene`` or hull; ``integrator``; ``rate`` steps
+    per s; ``probes``, how many; ``placement`` and ``law`` of them; ``quantity`` that was
+    compared, where it is no motion; ``evaluations`` of the force and ``cpu`` s per simulated
+    second; ``position``, ``rotation`` and ``error`` (both in one) m; ``percent`` of the true
+    value; ``front`` 1 on the front of settings that nothing else beats, else 0.
     """
 
     part: str
     scene: str
-    method: str = None
+    integrator: str = None
     rate: float = None
     probes: int = None
     placement: str = None
@@ -78,7 +78,7 @@ def cost_to_reach(rows, tolerance, cost='evaluations'):
     """
     Return what it costs to reach ``tolerance`` m from where on every finer step reaches it.
 
-    ``rows`` are of one method on one scene; between two steps the line through both, on
+    ``rows`` are of one integrator on one scene; between two steps the line through both, on
     logarithmic axes, is read off.  Infinite when no step reaches it.
     """
     ordered = sorted(rows, key=lambda row: row.rate)
@@ -95,7 +95,7 @@ def cost_to_reach(rows, tolerance, cost='evaluations'):
 
 
 def observed_order(rows):
-    """Return the slope of log error over log step, fitted to ``rows`` of one method."""
+    """Return the slope of log error over log step, fitted to ``rows`` of one integrator."""
     rows = [row for row in rows if math.isfinite(row.error) and row.error > 0.0]
     steps = [-math.log(row.rate) for row in rows]
     errors = [math.log(row.error) for row in rows]

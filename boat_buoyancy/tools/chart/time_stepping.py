@@ -12,22 +12,21 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Part one of the chart: the error of every step method over its cost, on scenes of all kinds."""
+"""Part one of the chart: the error of every integrator over its cost, on scenes of all kinds."""
 
 from functools import lru_cache
 
 from .accuracy import force_evaluations, measure, reference_error, step_seconds
-from .chart_scenes import BY_NAME
-from .chart_table import cost_to_reach, observed_order, Row
-from ..physics.integrators import METHODS
+from .scenes import BY_NAME
+from .table import cost_to_reach, observed_order, Row
 
 PART = 'time stepping'
-METHOD_NAMES = ('leapfrog', 'rk4', 'implicit', 'symplectic_euler', 'euler')
+INTEGRATORS = ('leapfrog', 'rk4', 'implicit', 'symplectic_euler', 'euler')
 # The scene and how many of the finest steps an order is read from: few where errors are smooth,
 # many where they scatter with the place of a kink within the step.
 SMOOTH, KINKED = ('free decay', 4), ('drop', 12)
-# Force evaluations per simulated second; the methods are compared at equal cost.  Two interleaved
-# series that double at every step.
+# Force evaluations per simulated second; the integrators are compared at equal cost.  Two
+# interleaved series that double at every step.
 FULL_COSTS = tuple(base * 2 ** k for k in range(9) for base in (5, 7))
 QUICK_COSTS = tuple(5 * 2 ** k for k in range(6))
 
@@ -41,51 +40,57 @@ def solution(name, quick):
 
 def tasks(quick):
     """Return the arguments of `measured`, one tuple for each piece of work."""
-    return [(name, method, quick) for name in BY_NAME for method in (*METHOD_NAMES, None)]
+    return [(name, integrator, quick) for name in BY_NAME
+            for integrator in (*INTEGRATORS, None)]
 
 
 def measured(task):
-    """Return the rows of one method on one scene; of the reference itself for method None."""
-    name, method, quick = task
+    """Return the rows of one integrator on one scene; of the reference itself for None."""
+    name, integrator, quick = task
     run, truth = solution(name, quick)
-    if method is None:
+    if integrator is None:
         error = reference_error(run, truth)
         return [Row(PART, name, 'reference', probes=len(run.boat.hull.positions),
                     law=run.boat.hull.law, position=error.position, rotation=error.rotation,
                     error=error.total)]
     rows = []
     for cost in QUICK_COSTS if quick else FULL_COSTS:
-        rate = cost / METHODS[method].evaluations
+        rate = cost / force_evaluations(integrator, 1.0)
         if rate * run.duration < 10:
             continue
-        error = measure(run, truth, method, rate)
-        rows.append(Row(PART, name, method, rate, len(run.boat.hull.positions),
-                        law=run.boat.hull.law, evaluations=force_evaluations(method, rate),
+        error = measure(run, truth, integrator, rate)
+        rows.append(Row(PART, name, integrator, rate, len(run.boat.hull.positions),
+                        law=run.boat.hull.law,
+                        evaluations=force_evaluations(integrator, rate),
                         position=error.position, rotation=error.rotation, error=error.total))
     return rows
 
 
 def step_costs(quick):
-    """Return the CPU time in s of one step, by (scene, method); run it on a quiet machine."""
+    """Return the CPU time in s of one step, by (scene, integrator); run it on a quiet machine."""
     return step_seconds({name: scene.run(quick) for name, scene in BY_NAME.items()},
-                        METHOD_NAMES, repeats=3 if quick else 9)
+                        INTEGRATORS, repeats=3 if quick else 9)
 
 
 def orders(rows, scene, finest):
-    """Return {method: observed order} on a scene, over its ``finest`` steps."""
+    """Return {integrator: observed order} on a scene, over its ``finest`` steps."""
     found = {}
-    for method in METHOD_NAMES:
-        measured_of = sorted((row for row in rows if (row.part, row.scene, row.method)
-                              == (PART, scene, method)), key=lambda row: -row.rate)
+    for integrator in INTEGRATORS:
+        measured_of = sorted(_of(rows, scene, integrator), key=lambda row: -row.rate)
         if measured_of:
-            found[method] = observed_order(measured_of[:finest])
+            found[integrator] = observed_order(measured_of[:finest])
     return found
 
 
 def ranking(rows, scene, tolerance, cost='evaluations'):
-    """Return [(method, cost to reach the tolerance)] of one scene, cheapest first."""
-    measured_of = {method: [row for row in rows if (row.part, row.scene, row.method)
-                            == (PART, scene, method)] for method in METHOD_NAMES}
-    costs = {method: cost_to_reach(found, tolerance, cost)
-             for method, found in measured_of.items() if found}
+    """Return [(integrator, cost to reach the tolerance)] of one scene, cheapest first."""
+    measured_of = {integrator: _of(rows, scene, integrator) for integrator in INTEGRATORS}
+    costs = {integrator: cost_to_reach(found, tolerance, cost)
+             for integrator, found in measured_of.items() if found}
     return sorted(costs.items(), key=lambda pair: pair[1])
+
+
+def _of(rows, scene, integrator):
+    """Return the rows of one integrator on one scene."""
+    return [row for row in rows
+            if (row.part, row.scene, row.integrator) == (PART, scene, integrator)]

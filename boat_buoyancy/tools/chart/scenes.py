@@ -12,12 +12,12 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The scenes on which the step methods are compared: four that differ in kind, and one more."""
+"""The scenes on which the integrators are compared: four that differ in kind, and one more."""
 
 from dataclasses import dataclass
 
 from .accuracy import Run
-from ..physics.scene import load_scene
+from ...physics.scene import load_scene
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class ChartScene:
     A scene of the chart.
 
     ``name`` as in the table; ``kind``, what is hard about it; ``parameters`` as in a parameter
-    file; ``duration`` s; ``tolerance`` m, the accuracy at which the methods are ranked.
+    file; ``duration`` s; ``tolerance`` m, the accuracy at which the integrators are ranked.
     """
 
     name: str

@@ -15,7 +15,7 @@
 """
 Measure what the node costs, and write doc/ros_speed.md.
 
-    python test/ros_speed.py [--seconds 10] [--out doc/ros_speed.md]
+    python benchmarks/ros_node.py [--seconds 10] [--out doc/ros_speed.md]
 
 CPU time is that of the node's process alone; subscribers are in another process.
 """
@@ -36,11 +36,13 @@ from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
 from geometry_msgs.msg import TwistStamped, WrenchStamped  # noqa: E402
 import numpy as np  # noqa: E402
 
+# What it shares with the tests: a node in a process of its own, and who listens to it.
+TEST = Path(__file__).parents[1] / 'test'
+sys.path.insert(0, str(TEST))
 from ros_probe import BEST_EFFORT, new_namespace, Probe, ROOT, wrench  # noqa: E402
 
 OUTPUTS = ('pose', 'twist', 'odom', 'probe_depth')
 RATES = (50.0, 100.0, 200.0, 500.0, 1000.0)
-HERE = Path(__file__).parent
 
 LISTENER = """
 import sys
@@ -169,7 +171,7 @@ class Running:
             [sys.executable, '-c', code, '--ros-args', '-r', f'__ns:={self.namespace}',
              '-p', f'rate:={rate}', *own], cwd=ROOT, stderr=subprocess.DEVNULL)
         self._listener = subprocess.Popen(
-            [sys.executable, '-c', LISTENER, self.namespace, ','.join(topics)], cwd=HERE,
+            [sys.executable, '-c', LISTENER, self.namespace, ','.join(topics)], cwd=TEST,
             stdout=subprocess.PIPE, text=True)
         self._listener.stdout.readline()
         time.sleep(3.0)
@@ -248,7 +250,7 @@ def latency(rate, count):
 def publishing(rate, seconds):
     """Return the us of a new message, and of one filled again."""
     namespace = new_namespace()
-    listener = subprocess.Popen([sys.executable, '-c', LISTENER, namespace, 'pose'], cwd=HERE,
+    listener = subprocess.Popen([sys.executable, '-c', LISTENER, namespace, 'pose'], cwd=TEST,
                                 stdout=subprocess.DEVNULL)
     try:
         found = subprocess.run(
@@ -272,7 +274,7 @@ def measure(seconds):
         cpu = next((line.split(':')[1].strip() for line in file if 'model name' in line), '?')
     yield from (
         '# What the node costs', '',
-        f'Measured by `python test/ros_speed.py --seconds {seconds:g}` on {cpu}, '
+        f'Measured by `python benchmarks/ros_node.py --seconds {seconds:g}` on {cpu}, '
         f'{os.cpu_count()} cores, Python {platform.python_version()}, NumPy {np.__version__}; '
         'default scene (4 probes, flat water), one subscribing process, localhost. Shares are of '
         'one core, of the node alone; read ratios, not absolute times.', '',

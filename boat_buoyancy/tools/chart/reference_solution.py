@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-The reference solution: the same equations of motion, solved by a method that is none of ours.
+The reference solution: the same equations of motion, solved by an integrator that is none of ours.
 
 An adaptive eighth-order Runge-Kutta (SciPy's DOP853), restarted wherever the force has a kink:
 a high order is worth nothing across one.  Force and damping are those of `physics.forces`, so
@@ -27,12 +27,12 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
-from ..physics.backend import ONE_BOAT
-from ..physics.boat import State
-from ..physics.forces import evaluate, RAMP, System
-from ..physics.kick import accelerations
-from ..physics.laws import MIN_UPRIGHT
-from ..physics.quaternion import cross, multiply, normalise, to_body, to_world
+from ...physics.backend import ONE_BOAT
+from ...physics.boat import State
+from ...physics.forces import evaluate, RAMP, System
+from ...physics.kick import accelerations
+from ...physics.laws import MIN_UPRIGHT
+from ...physics.quaternion import cross, multiply, normalise, to_body, to_world
 
 # A kink counts as passed when its function is this far on the other side: round-off about zero,
 # of a boat at rest or of a speed that stays zero, is no crossing.

@@ -21,13 +21,13 @@ import numpy as np
 from scipy.optimize import brentq
 
 from .accuracy import difference, Run, simulated
-from .chart_table import Row
-from .clipping import submerged
-from .shapes import BOX, PLACEMENTS, SHAPES
-from ..physics.boat import Boat, Damping
-from ..physics.hydrostatics import rest_state
-from ..physics.righting import righting_arms
-from ..physics.waves import Sea
+from .hull_clipping import submerged
+from .hull_shapes import BOX, PLACEMENTS, SHAPES
+from .table import Row
+from ...physics.boat import Boat, Damping
+from ...physics.hydrostatics import rest_state
+from ...physics.righting import righting_arms
+from ...physics.waves import Sea
 
 PART = 'model'
 DENSITY, GRAVITY = 1025.0, 9.81

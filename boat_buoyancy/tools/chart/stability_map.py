@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Where each step method keeps a boat at rest calm, measured by running it, and as predicted."""
+"""Where each integrator keeps a boat at rest calm, measured by running it, and as predicted."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,13 +20,13 @@ import sys
 
 import numpy as np
 
-from ..physics import load_scene
-from ..physics.boat import Boat, Damping, State
-from ..physics.equilibrium import Equilibrium, modes
-from ..physics.hull import Hull
-from ..physics.simulation import Simulation, SimulationError
-from ..physics.step_limits import combined_step
-from ..physics.waves import Sea
+from ...physics import load_scene
+from ...physics.boat import Boat, Damping, State
+from ...physics.equilibrium import Equilibrium, modes
+from ...physics.hull import Hull
+from ...physics.simulation import Simulation, SimulationError
+from ...physics.step_limits import combined_step
+from ...physics.waves import Sea
 
 # A boat that bobs at 1 rad/s: a step of h s is then omega h = h.
 MASS, GRAVITY = 1.0, 9.81
@@ -81,7 +81,7 @@ def stays_calm(boat, integrator, h, steps):
 @dataclass(frozen=True)
 class StabilityMap:
     """
-    Where a method stays calm.
+    Where an integrator stays calm.
 
     ``angles`` (A,) omega h and ``ratios`` (R,) damping ratios of the grid; ``calm`` (R, A) of
     bool, measured; ``boundary`` (N, 2) rows of damping ratio and the omega h from which it is
@@ -95,7 +95,7 @@ class StabilityMap:
 
 
 def measure_map(integrator, angles, ratios, steps):
-    """Return the `StabilityMap` of a method on a grid."""
+    """Return the `StabilityMap` of an integrator on a grid."""
     calm = np.zeros((len(ratios), len(angles)), bool)
     for row, ratio in enumerate(ratios):
         boat = bobbing_boat(ratio)
@@ -120,7 +120,7 @@ def loop_growth(angle, drag):
 
     ``angle`` omega h of the spring, 0 for a boat in free flight; ``drag`` drag times dt.
     Measured from the first steps of the shipped ``symplectic_euler``: what repeats itself as
-    z(n + 2) = a z(n + 1) + b z(n) grows by the larger root of r^2 = a r + b (Prony's method).
+    z(n + 2) = a z(n + 1) + b z(n) grows by the larger root of r^2 = a r + b (Prony).
     """
     if angle == 0.0:
         return abs(_speed_kept(drag))
@@ -151,7 +151,7 @@ def predicted_loop_growth(angle, drag):
 
 def shipped_scenes():
     """Return the parameter files that come with the package, from its source or as installed."""
-    source = Path(__file__).parents[2] / 'config'
+    source = Path(__file__).parents[3] / 'config'
     installed = Path(sys.prefix) / 'share' / 'boat_buoyancy' / 'config'
     return sorted((source if source.is_dir() else installed).glob('*.yaml'))
 

@@ -15,24 +15,23 @@
 """
 The command line of ``buoyancy_chart``.
 
-Speed against accuracy for all step methods and probes; advice for one scene; the speed of the
+Speed against accuracy for all integrators and probes; advice for one scene; the speed of the
 step; the limits of stability.
 """
 
-from importlib.util import find_spec
 from pathlib import Path
 import sys
 
-from . import command_line
-from .progress import Progress
-from ..physics import checks
-from ..physics.scene import load_scene
+from .. import command_line
+from ..progress import Progress
+from ...physics import checks
+from ...physics.scene import load_scene
 
 PROGRAM = 'buoyancy_chart'
 DESCRIPTION = (
     'Charts speed against accuracy (speed_accuracy.png and .csv, _model.png, _front.png, and a '
     'summary). With --tolerance it measures the scene and prints the cheapest setting that meets '
-    'it; with --speed the cost of a step; with --stability where each method is stable.')
+    'it; with --speed the cost of a step; with --stability where each integrator is stable.')
 
 
 def parser():
@@ -47,18 +46,14 @@ def parser():
     made.add_argument('--speed', action='store_true',
                       help='measure the cost of a step: speed.md, speed.png, speed.csv')
     made.add_argument('--stability', action='store_true',
-                      help='measure where each method is stable: stability.png')
+                      help='measure where each integrator is stable: stability.png')
     made.add_argument('--quick', action='store_true', help='coarser, in under a minute')
     return made
 
 
 def work(arguments, progress):
     """Do what the arguments ask for; ValueError when they or a scene are wrong."""
-    missing = [name for name in ('scipy', 'matplotlib') if find_spec(name) is None]
-    if missing:
-        raise ValueError(f'charts need {" and ".join(missing)}: '
-                         "pip install 'boat_buoyancy[chart]', or python3-scipy and "
-                         'python3-matplotlib from apt')
+    command_line.require_extra('chart', 'a chart', 'matplotlib', 'scipy')
     asked = [name for name in ('tolerance', 'speed', 'stability')
              if getattr(arguments, name) not in (None, False)]
     if len(asked) > 1:
@@ -102,14 +97,14 @@ def _speed(arguments, progress):
 
 
 def _stability(arguments, progress):
-    from .stability_chart import draw_stability
+    from .stability_plot import draw_stability
     path = draw_stability(_folder(arguments.out), quick=arguments.quick, progress=progress)
     progress.clear()
     print(path)
 
 
 def _chart(arguments, progress):
-    from .chart_run import write_chart
+    from .speed_accuracy import write_chart
     lines = write_chart(arguments.out, arguments.scenes, arguments.quick, progress)
     progress.clear()
     print(*lines, f'Written to {arguments.out}: speed_accuracy.png, .csv, .txt, _model.png, '

@@ -20,7 +20,8 @@ import os
 from pathlib import Path
 import signal
 
-from . import chart_plots, chart_summary, chart_table, front, hull_accuracy, time_stepping
+from . import (hull_accuracy, pareto_front, speed_accuracy_plots as plots, summary, table,
+               time_stepping)
 
 PROCESSES = 2
 NAME = 'speed_accuracy'
@@ -35,23 +36,25 @@ def write_chart(out, scenes, quick, progress):
     text.
     """
     sources = ({Path(path).stem: path for path in scenes}
-               or {front.DEFAULT_NAME: front.DEFAULT_SCENE})
+               or {pareto_front.DEFAULT_NAME: pareto_front.DEFAULT_SCENE})
     # Read first: a bad scene is to be told at once.
-    items = {name: front.scene_items(source) for name, source in sources.items()}
+    items = {name: pareto_front.scene_items(source) for name, source in sources.items()}
     out = Path(out)
     out.mkdir(parents=True, exist_ok=True)
     rows, found = measure_errors(items, quick, progress)
     rows = add_times(rows, found, items, quick, progress)
-    chart_table.write(out / f'{NAME}.csv', rows)
+    table.write(out / f'{NAME}.csv', rows)
+    # Read again: pictures and summary are of the digits that the table has.
+    rows = table.read(out / f'{NAME}.csv')
     progress('drawing')
-    chart_plots.draw_time_stepping(rows, out / f'{NAME}.png')
-    chart_plots.draw_model(rows, out / f'{NAME}_model.png')
+    plots.draw_time_stepping(rows, out / f'{NAME}.png')
+    plots.draw_model(rows, out / f'{NAME}_model.png')
     for number, name in enumerate(items):
         suffix = f'_{name}' if scenes else ''
-        chart_plots.draw_front(rows, name, out / f'{NAME}_front{suffix}.png')
-    summary = list(chart_summary.lines(rows))
-    (out / f'{NAME}.txt').write_text('\n'.join(summary) + '\n', encoding='utf-8')
-    return summary
+        plots.draw_front(rows, name, out / f'{NAME}_front{suffix}.png')
+    lines = list(summary.lines(rows))
+    (out / f'{NAME}.txt').write_text('\n'.join(lines) + '\n', encoding='utf-8')
+    return lines
 
 
 def measure_errors(items, quick, progress):
@@ -60,8 +63,8 @@ def measure_errors(items, quick, progress):
 
     ``items`` {scene: parameters as pairs}.  No times yet: two processes disturb each other.
     """
-    work = ([(front.measured, task) for name, pairs in items.items()
-             for task in front.tasks(name, pairs, quick)]
+    work = ([(pareto_front.measured, task) for name, pairs in items.items()
+             for task in pareto_front.tasks(name, pairs, quick)]
             + [(time_stepping.measured, task) for task in time_stepping.tasks(quick)]
             + [(hull_accuracy.measured, task) for task in hull_accuracy.tasks(quick)])
     rows, found = [], {name: [] for name in items}
@@ -72,7 +75,7 @@ def measure_errors(items, quick, progress):
                       (signal.SIGINT, signal.SIG_IGN)) as pool:
         for number, (task, part) in enumerate(pool.imap(_do, work, chunksize=1)):
             progress(f'errors: {number + 1} of {len(work)}')
-            if work[number][0] is front.measured:
+            if work[number][0] is pareto_front.measured:
                 found[task[0]] += part
             else:
                 rows += part
@@ -89,8 +92,8 @@ def add_times(rows, found, items, quick, progress):
     progress('times: steps of the scenes')
     seconds = time_stepping.step_costs(quick)
     rows = [row if row.rate is None or row.part != time_stepping.PART
-            else replace(row, cpu=row.rate * seconds[row.scene, row.method]) for row in rows]
+            else replace(row, cpu=row.rate * seconds[row.scene, row.integrator]) for row in rows]
     for name, settings in found.items():
         progress(f'times: settings of {name}')
-        rows += front.rows(name, items[name], settings, quick)
+        rows += pareto_front.rows(name, items[name], settings, quick)
     return rows

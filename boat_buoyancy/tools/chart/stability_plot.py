@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The stability chart: where each method keeps a boat calm, and what drag does to a game loop."""
+"""The picture of stability: where each integrator is calm, and what drag does to a game loop."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ from .stability_map import (loop_growth, measure_map, predicted_loop_growth, RAT
                             scene_points, shipped_scenes)
 
 NAME = 'stability.png'
-# Each method's panel: its title, and where to write that it is calm and that it shakes.
+# Each integrator's panel: its title, and where to write that it is calm and that it shakes.
 PANELS = {'leapfrog': ('leapfrog (default)', (1.6, 1.5), (2.72, 0.25)),
           'implicit': ('implicit', (1.6, 1.5), None),
           'rk4': ('rk4', (1.7, 0.6), (2.3, 1.45)),
@@ -50,7 +50,7 @@ def draw_stability(out_dir, quick=False, scenes=None, progress=print):
 
     Main arguments: ``out_dir`` a folder; ``quick`` takes a coarser grid and shorter runs.
     Other arguments: ``scenes`` parameter files to mark, by default those that are shipped;
-    ``progress`` takes a line before each method.
+    ``progress`` takes a line before each integrator.
     """
     from matplotlib.figure import Figure
     columns, rows, steps = GRIDS[bool(quick)]
@@ -60,9 +60,9 @@ def draw_stability(out_dir, quick=False, scenes=None, progress=print):
               for path in (shipped_scenes() if scenes is None else scenes)}
     figure = Figure(figsize=(9.0, 6.9), layout='constrained')
     panels = figure.subplots(2, 3)
-    for axes, (method, panel) in zip(panels.flat, PANELS.items()):
-        progress(f'stability: {method}, {columns} x {rows} runs')
-        draw_map(axes, measure_map(method, angles, ratios, steps), panel)
+    for axes, (integrator, panel) in zip(panels.flat, PANELS.items()):
+        progress(f'stability: {integrator}, {columns} x {rows} runs')
+        draw_map(axes, measure_map(integrator, angles, ratios, steps), panel)
         draw_scenes(axes, points)
     for axes in panels[:, 0]:
         axes.set_ylabel('damping ratio  (1 = critical)')
@@ -76,7 +76,7 @@ def draw_stability(out_dir, quick=False, scenes=None, progress=print):
 
 
 def draw_map(axes, measured, panel):
-    """Draw the measured region of a method and its predicted boundary."""
+    """Draw the measured region of an integrator and its predicted boundary."""
     from matplotlib.colors import ListedColormap
     axes.imshow(measured.calm, origin='lower', extent=(0.0, ANGLES, 0.0, RATIOS), aspect='auto',
                 cmap=ListedColormap([SHAKES, CALM]), vmin=0, vmax=1, interpolation='nearest')

@@ -20,10 +20,10 @@ import time
 
 import numpy as np
 
-from . import reference
-from ..physics.boat import Boat, State
-from ..physics.integrators import METHODS
-from ..physics.simulation import Simulation, SimulationError
+from . import reference_solution
+from ...physics.boat import Boat, State
+from ...physics.integrators import METHODS
+from ...physics.simulation import Simulation, SimulationError
 
 # How often the motion is compared, at most: ten times in the shortest period that matters.
 SAMPLE_RATE = 40.0
@@ -50,8 +50,8 @@ class Run:
             object.__setattr__(self, 'length', boat_length(self.boat))
 
     def solve(self, **options):
-        """Return the `reference.Reference` of this run."""
-        return reference.solve(self.boat, self.sea, self.start, self.duration, **options)
+        """Return the `reference_solution.Reference` of this run."""
+        return reference_solution.solve(self.boat, self.sea, self.start, self.duration, **options)
 
     def simulation(self, integrator, rate, substeps=1):
         """Return a `Simulation` of this run, however unstable."""
@@ -140,7 +140,7 @@ def simulated(run, integrator, rate, substeps=1):
 
 
 def measure(run, solution, integrator, rate, substeps=1):
-    """Return the `Error` of a step method at ``rate`` Hz, compared with a `Reference`."""
+    """Return the `Error` of an integrator at ``rate`` Hz, compared with a `Reference`."""
     motion = simulated(run, integrator, rate, substeps)
     if motion is None:
         return NOT_FINITE
@@ -151,7 +151,7 @@ def measure(run, solution, integrator, rate, substeps=1):
 
 
 def force_evaluations(integrator, rate, substeps=1):
-    """Return how often a method computes the force per simulated second."""
+    """Return how often an integrator computes the force per simulated second."""
     return METHODS[integrator].evaluations * rate * substeps
 
 

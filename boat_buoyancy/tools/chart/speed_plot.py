@@ -16,9 +16,9 @@
 
 import matplotlib
 
-from .plot_style import figure, logarithmic, save, SERIES, SETTINGS, title_and_legend
 from .speed import BASE_WAVES, Case, PROBES
 from .speed_report import microseconds
+from ..plot_style import figure, logarithmic, save, SERIES, SETTINGS, title_and_legend
 
 
 @matplotlib.rc_context(SETTINGS)
@@ -26,7 +26,7 @@ def draw(best, path):
     """Draw cost per boat-step over the size of the fleet, and over the number of waves."""
     made, panels = figure(9.0, 4.6, 1, 2, sharey=True)
     left, right = panels[0]
-    steps = [case for case in best if case.kind == 'step' and case.method == 'leapfrog'
+    steps = [case for case in best if case.kind == 'step' and case.integrator == 'leapfrog'
              and case.damped]
     boats = sorted({case.boats for case in steps})
     waves = sorted({case.waves for case in steps})
@@ -37,16 +37,6 @@ def draw(best, path):
         # Flat water has no place on a logarithmic axis: it stands half a wave to the left.
         _pair(right, best, [(Case('step', fleet, probes, w), max(w, 0.5)) for w in waves],
               colour, marker, f'{probes} probes')
-    single = [case for case in best if case.kind == 'single' and case.boats == fleet]
-    colour, marker = SERIES[len(PROBES)]
-    right.plot([case.waves for case in single], [microseconds(best, case) for case in single],
-               color=colour, marker=marker, linestyle=':')
-    last = single[-1]
-    # In the corner under all lines.
-    right.annotate(f'{last.probes} probes in single precision,\nmeasured and not shipped',
-                   (last.waves, microseconds(best, last)), (0.98, 0.3), ha='right', va='top',
-                   textcoords='axes fraction', color=colour,
-                   arrowprops={'arrowstyle': '-', 'color': colour, 'shrinkB': 5})
     logarithmic(left, 'boats stepped together', 'CPU time per boat-step [µs]')
     logarithmic(right, 'waves', '')
     left.set_title(f'Over boats ({BASE_WAVES} waves)')

@@ -18,10 +18,10 @@ import math
 
 import matplotlib
 
-from . import front, hull_accuracy, time_stepping
-from .chart_scenes import SCENES
-from .plot_style import (figure, logarithmic, save, SERIES, SETTINGS, STYLES,
-                         title_and_legend)
+from . import hull_accuracy, pareto_front, time_stepping
+from .scenes import SCENES
+from ..plot_style import (figure, logarithmic, save, SERIES, SETTINGS, STYLES,
+                          title_and_legend)
 
 COSTS = (('evaluations', 'force evaluations per simulated second', 1.0, '{:.0f}'),
          ('cpu', 'CPU time per simulated second [ms]', 1e3, '{:.1f} ms'))
@@ -39,15 +39,15 @@ LABEL_GAP = 1.45
 
 @matplotlib.rc_context(SETTINGS)
 def draw_time_stepping(rows, path):
-    """Draw the error of every method over both costs, a row of panels for each scene."""
+    """Draw the error of every integrator over both costs, a row of panels for each scene."""
     made, panels = figure(9.0, 12.5, len(SCENES), 2)
     for scene, pair in zip(SCENES, panels):
         of_scene = [row for row in rows if row.part == time_stepping.PART
                     and row.scene == scene.name]
         for axes, (cost, label, scale, form) in zip(pair, COSTS):
-            for method, (colour, marker, name) in STYLES.items():
+            for integrator, (colour, marker, name) in STYLES.items():
                 points = sorted((scale * getattr(row, cost), row.error) for row in of_scene
-                                if row.method == method)
+                                if row.integrator == integrator)
                 axes.plot(*zip(*points), color=colour, marker=marker, label=name)
             logarithmic(axes, label, 'error [m]', bottom=2e-6, top=1.0)
             axes.axhline(scene.tolerance, color='black', linewidth=0.9, linestyle='--')
@@ -61,8 +61,8 @@ def draw_time_stepping(rows, path):
                                fontweight='normal')
         pair[0].set_title(scene.name[0].upper() + scene.name[1:], loc='left')
         pair[1].set_ylabel('')
-    title_and_legend(made, 'Error over cost: down and left is better.  Star: the cheapest method '
-                     'to the accuracy of the dashed line', panels[0][0])
+    title_and_legend(made, 'Error over cost: down and left is better.  Star: the cheapest '
+                     'integrator to the accuracy of the dashed line', panels[0][0])
     save(made, path)
 
 
@@ -145,10 +145,10 @@ def draw_front(rows, name, path):
     """Draw every setting of one scene, and those that nothing else beats."""
     made, panels = figure(9.0, 6.2, 1, 1)
     axes = panels[0][0]
-    rows = [row for row in rows if (row.part, row.scene) == (front.PART, name)
+    rows = [row for row in rows if (row.part, row.scene) == (pareto_front.PART, name)
             and math.isfinite(row.error)]
-    for method, (colour, marker, label) in STYLES.items():
-        points = [(1e3 * row.cpu, row.error) for row in rows if row.method == method]
+    for integrator, (colour, marker, label) in STYLES.items():
+        points = [(1e3 * row.cpu, row.error) for row in rows if row.integrator == integrator]
         if points:
             axes.plot(*zip(*points), color=colour, marker=marker, linestyle='none', alpha=0.3,
                       markersize=4, label=label)
@@ -157,13 +157,13 @@ def draw_front(rows, name, path):
               linewidth=1.2, drawstyle='steps-post', label='nothing beats these')
     last = math.inf
     for row in best:
-        colour, marker, _ = STYLES[row.method]
+        colour, marker, _ = STYLES[row.integrator]
         axes.plot([1e3 * row.cpu], [row.error], color=colour, marker=marker, markersize=7,
                   markeredgecolor='black')
         if row.error * LABEL_GAP < last:
             last = row.error
             probes = '' if row.placement == 'as given' else f', {row.placement} probes'
-            axes.annotate(f'{row.method} {row.rate:g} Hz{probes}', (1e3 * row.cpu, row.error),
+            axes.annotate(f'{row.integrator} {row.rate:g} Hz{probes}', (1e3 * row.cpu, row.error),
                           xytext=(-9, -9), textcoords='offset points', ha='right', va='center',
                           fontsize=8.5)
     logarithmic(axes, 'CPU time per simulated second [ms]',

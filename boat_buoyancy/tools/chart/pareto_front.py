@@ -18,13 +18,13 @@ from dataclasses import replace
 from functools import lru_cache
 
 from . import settings
-from .chart_table import Row
 from .settings import Setting, Trial
 from .stretch import stretches
-from ..physics.scene import load_scene
+from .table import Row
+from ...physics.scene import load_scene
 
 PART = 'both'
-# The scene of the chart when none is given: the barge of `shapes` in sea state 5.
+# The scene of the chart when none is given: the barge of `hull_shapes` in sea state 5.
 DEFAULT_NAME = 'barge in sea state 5'
 DEFAULT_SCENE = {'hull.size': [20.0, 6.0, 3.0], 'hull.bottom': 0.0, 'hull.probes': [2, 2],
                  'boat.mass': 184500.0, 'boat.center_of_mass': [0.0, 0.0, 1.8],
@@ -32,7 +32,7 @@ DEFAULT_SCENE = {'hull.size': [20.0, 6.0, 3.0], 'hull.bottom': 0.0, 'hull.probes
 RATES = tuple(rate for rate in settings.RATES if rate <= 128.0)
 QUICK_RATES = tuple(rate for rate in settings.RATES[::2] if rate <= 16.0)
 QUICK_DURATION = 15.0
-# A method's error has levelled off when three finer steps in a row change it by less.
+# An integrator's error has levelled off when three finer steps in a row change it by less.
 LEVEL = 0.05
 # What costs more belongs on the front only when it is at least this much more accurate; less is
 # within the noise of the clock.
@@ -59,14 +59,14 @@ def tasks(name, items, quick):
 
 
 def measured(task):
-    """Return [(`Setting`, error m)] of all methods and steps with one choice of probes."""
+    """Return [(`Setting`, error m)] of all integrators and steps with one choice of probes."""
     _, items, probes, quick = task
     of_scene = trial(items, quick)
     found = []
-    for method in settings.METHOD_NAMES:
+    for integrator in settings.INTEGRATORS:
         errors = []
         for rate in QUICK_RATES if quick else RATES:
-            setting = Setting(method, rate, probes)
+            setting = Setting(integrator, rate, probes)
             errors.append(of_scene.error(setting))
             found.append((setting, errors[-1]))
             last = errors[-3:]

@@ -20,17 +20,17 @@ import math
 from . import settings
 from .settings import Result, Setting, Trial
 from .stretch import stretches
-from ..physics.integrators import METHODS
-from ..physics.scene import scene_from_values
+from ...physics.integrators import METHODS
+from ...physics.scene import scene_from_values
 
-# How fast an error may fall, more than it ever does: one order above the method's own, and a
+# How fast an error may fall, more than it ever does: one order above the integrator's own, and a
 # factor besides.  What cannot meet the tolerance even so is not tried.
 MARGIN_ORDER, MARGIN = 1, 4.0
 # An error of this part of the boat's length is no approximation any more.
 WRONG = 0.1
 # A finer step changes the error by less than this part: the step is not what limits it.
 UNCHANGED = 0.1
-# The methods that show it: of second order and more, they do not level off by themselves.
+# The integrators that show it: of second order and more, they do not level off by themselves.
 CONVERGING = ('leapfrog', 'rk4')
 
 
@@ -122,13 +122,14 @@ def _is_hopeless(tried, setting, tolerance):
     if alike and MARGIN * tolerance < alike[-1].error * (
             alike[-1].setting.rate / setting.rate) ** (order + MARGIN_ORDER):
         return True
-    return any(_is_flat(tried, method, setting.probes, tolerance) for method in CONVERGING)
+    return any(_is_flat(tried, integrator, setting.probes, tolerance)
+               for integrator in CONVERGING)
 
 
-def _is_flat(tried, method, probes, tolerance):
-    """Return True when a method's error has stopped falling above the tolerance."""
+def _is_flat(tried, integrator, probes, tolerance):
+    """Return True when an integrator's error has stopped falling above the tolerance."""
     errors = [result.error for result in tried
-              if (result.setting.integrator, result.setting.probes) == (method, probes)]
+              if (result.setting.integrator, result.setting.probes) == (integrator, probes)]
     last = errors[-3:]
     return (len(last) == 3 and tolerance < min(last)
             and max(last) - min(last) < UNCHANGED * min(last))

@@ -16,8 +16,8 @@
 
 import math
 
-from . import front, hull_accuracy, time_stepping
-from .chart_scenes import SCENES, SWELL
+from . import hull_accuracy, pareto_front, time_stepping
+from .scenes import SCENES, SWELL
 
 # Errors in % below this are round-off.
 EXACT = 1e-6
@@ -32,13 +32,13 @@ def fronts(rows):
     """Return {scene: its rows on the front, cheapest first} of part three."""
     found = {}
     for row in rows:
-        if row.part == front.PART:
+        if row.part == pareto_front.PART:
             found.setdefault(row.scene, []).extend([row] if row.front else [])
     return {name: sorted(best, key=lambda row: row.cpu) for name, best in found.items()}
 
 
 def _stepping(rows):
-    own = [row for row in rows if row.method == 'reference']
+    own = [row for row in rows if row.integrator == 'reference']
     if not own:
         return []
     worst = max(own, key=lambda row: row.error)
@@ -47,14 +47,14 @@ def _stepping(rows):
     for scene in (*SCENES, SWELL):
         cpu = dict(time_stepping.ranking(rows, scene.name, scene.tolerance, 'cpu'))
         ranked = ', '.join(
-            f'{method} {cost:.0f} ({1e3 * cpu[method]:.2g} ms)' if math.isfinite(cost)
-            else f'{method} not at all' for method, cost in time_stepping.ranking(
+            f'{name} {cost:.0f} ({1e3 * cpu[name]:.2g} ms)' if math.isfinite(cost)
+            else f'{name} not at all' for name, cost in time_stepping.ranking(
                 rows, scene.name, scene.tolerance))
         yield f'  {scene.name} to {1e3 * scene.tolerance:g} mm: {ranked}'
-    for name, finest in (time_stepping.SMOOTH, time_stepping.KINKED):
-        yield f'  observed order on {name}: ' + ', '.join(
-            f'{method} {order:.2f}'
-            for method, order in time_stepping.orders(rows, name, finest).items())
+    for scene, finest in (time_stepping.SMOOTH, time_stepping.KINKED):
+        yield f'  observed order on {scene}: ' + ', '.join(
+            f'{name} {order:.2f}'
+            for name, order in time_stepping.orders(rows, scene, finest).items())
     yield (f'  own error of the reference: at most {worst.error:.1g} m, rms '
            f'({worst.scene})')
 
@@ -88,5 +88,5 @@ def _fronts(rows):
         for row in best:
             probes = ('' if row.placement == 'as given' else
                       ', hull.probes: [{}, {}]'.format(*row.placement.split('x')))
-            yield (f'  {row.error:.2g} m, {1e3 * row.cpu:.2g} ms: integrator: {row.method}, '
+            yield (f'  {row.error:.2g} m, {1e3 * row.cpu:.2g} ms: integrator: {row.integrator}, '
                    f'rate: {float(row.rate)}, substeps: 1{probes}')

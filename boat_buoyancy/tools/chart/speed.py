@@ -15,7 +15,7 @@
 """The speed of the step: what one boat and a fleet cost, beside what their cosines alone cost."""
 
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 import math
 import multiprocessing
 import os
@@ -25,16 +25,16 @@ import time
 
 import numpy as np
 
-from .progress import Progress
-from ..physics.boat import State
-from ..physics.scene import load_scene
-from ..physics.simulation import Simulation
-from ..physics.waves import angles, Sea
+from ..progress import Progress
+from ...physics.boat import State
+from ...physics.scene import load_scene
+from ...physics.simulation import Simulation
+from ...physics.waves import Sea
 
 BOATS = (1, 10, 100, 1000, 10000)
 PROBES = {4: [2, 2], 8: [4, 2], 16: [4, 4]}
 WAVES = (0, 1, 4, 16, 64)
-# The case of the aims.
+# The case that is told in words, and by which integrators are compared.
 BASE_PROBES, BASE_WAVES = 4, 4
 # One measurement of a case lasts about this long, in s, or one step.
 SLICE = 0.01
@@ -51,17 +51,15 @@ class Case:
     """
     What is timed.
 
-    ``kind`` 'step', or what it is held against: 'trigonometry' (the cosines and sines of as many
-    waves at as many probes of as many boats), 'single' (the step with cosines reduced in double
-    and taken in single precision, as it is not shipped), 'small call' (``numpy.add`` on 4
-    elements).
+    ``kind`` 'step', or what it is held against, 'trigonometry': the cosines and sines of as many
+    waves at as many probes of as many boats.
     """
 
     kind: str
     boats: int = 1
     probes: int = 0
     waves: int = 0
-    method: str = 'leapfrog'
+    integrator: str = 'leapfrog'
     damped: bool = True
 
 
@@ -71,13 +69,12 @@ def cases(quick):
     waves = WAVES[:-1] if quick else WAVES
     steps = [Case('step', b, p, w) for b in boats for p in PROBES for w in waves]
     base = partial(Case, probes=BASE_PROBES, waves=BASE_WAVES)
-    variants = [base('step', b, method=method, damped=damped) for b in (1, 1000)
-                for method, damped in (('leapfrog', False), ('implicit', True),
-                                       ('implicit', False), ('rk4', True),
-                                       ('symplectic_euler', True))]
+    variants = [base('step', b, integrator=integrator, damped=damped) for b in (1, 1000)
+                for integrator, damped in (('leapfrog', False), ('implicit', True),
+                                           ('implicit', False), ('rk4', True),
+                                           ('symplectic_euler', True))]
     limits = [Case('trigonometry', b, p, w) for b in boats for p in PROBES for w in waves if w]
-    single = [Case('single', b, BASE_PROBES, w) for b in (1, 1000) for w in waves if w]
-    return steps + variants + limits + single + [Case('small call')]
+    return steps + variants + limits
 
 
 def measure_alone(quick, rounds):
@@ -148,26 +145,20 @@ def simulation(case):
         position = np.tile(start.position, (case.boats, 1))
         position[:, :2] += random.uniform(-SPREAD / 2, SPREAD / 2, (case.boats, 2))
         start = State(position, start.orientation, start.velocity, start.angular_velocity)
-    return Simulation(scene.boat, water(case), start, rate=100.0, integrator=case.method)
+    return Simulation(scene.boat, water(case), start, rate=100.0, integrator=case.integrator)
 
 
 def water(case):
     """Return the `Sea` of a case."""
     random, count = np.random.default_rng(7), case.waves
-    kind = SingleSea if case.kind == 'single' else Sea
-    return kind(np.stack([np.full(count, 0.3 / math.sqrt(max(count, 1))),
-                          random.uniform(3.0, 8.0, count), random.uniform(-0.5, 0.5, count),
-                          random.uniform(0.0, 6.28, count)], axis=1))
+    return Sea(np.stack([np.full(count, 0.3 / math.sqrt(max(count, 1))),
+                         random.uniform(3.0, 8.0, count), random.uniform(-0.5, 0.5, count),
+                         random.uniform(0.0, 6.28, count)], axis=1))
 
 
 def _work(case):
     """Return a function without arguments that does the work of a case once."""
-    if case.kind in ('step', 'single'):
-        return simulation(case).step
-    if case.kind == 'small call':
-        small, out = np.arange(4.0), np.empty(4)
-        return partial(np.add, small, small, out)
-    return _trigonometry(case)
+    return simulation(case).step if case.kind == 'step' else _trigonometry(case)
 
 
 def _trigonometry(case):
@@ -183,37 +174,3 @@ def _trigonometry(case):
             np.cos(angle, out=out)
             np.sin(angle, out=out)
     return both
-
-
-class SingleSea(Sea):
-    """
-    The sea with cosines and sines in single precision, for measuring what they would bring.
-
-    Whole turns are taken off in double first; what is left is rounded to 1e-7 of the amplitude.
-    """
-
-    @cached_property
-    def _single_table(self):
-        """Return rows of angles in turns, and what a cosine and a sine of each wave give."""
-        response = np.concatenate(self._responses, axis=1)
-        return self._angle_rows / (2.0 * math.pi), response.astype(np.float32)
-
-    def surface(self, points, time):
-        """Return elevation and water velocity as `Sea.surface` does, to single precision."""
-        rows, response = self._single_table
-        turns = angles(rows, points, time)
-        waves = len(turns)
-        turns -= np.rint(turns)
-        terms = np.empty((2 * waves, turns.shape[1]), np.float32)
-        np.multiply(turns, 2.0 * math.pi, out=terms[waves:], casting='same_kind')
-        np.cos(terms[waves:], out=terms[:waves])
-        np.sin(terms[waves:], out=terms[waves:])
-        return response.dot(terms).astype(float).reshape(4, *points.shape[1:])
-
-
-def single_precision_error():
-    """Return the largest error of a `SingleSea`, far from time 0, over the sum of amplitudes."""
-    made, exact = (water(Case(kind, waves=BASE_WAVES)) for kind in ('single', 'step'))
-    points = np.random.default_rng(7).uniform(-SPREAD, SPREAD, (3, BASE_PROBES, 10_000))
-    off = made.surface(points, 1e4)[0] - exact.surface(points, 1e4)[0]
-    return float(np.abs(off).max() / exact.waves[:, 0].sum())

@@ -18,12 +18,12 @@ from dataclasses import dataclass, field
 import math
 
 from .accuracy import apart, boat_length, force_evaluations, measure, Run, step_seconds
-from .reference import Reference
+from .reference_solution import Reference
 from .stretch import Stretch
-from ..physics.scene import scene_from_values
+from ...physics.scene import scene_from_values
 
 # For study only, never the best: euler is not among them.
-METHOD_NAMES = ('leapfrog', 'rk4', 'implicit', 'symplectic_euler')
+INTEGRATORS = ('leapfrog', 'rk4', 'implicit', 'symplectic_euler')
 # Steps per simulated second, about a factor of the square root of 2 apart.
 RATES = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0, 32.0, 45.0, 64.0, 90.0, 128.0,
          180.0, 256.0, 360.0, 512.0, 720.0, 1024.0, 1440.0, 2048.0)
@@ -39,7 +39,7 @@ HULL_TOLERANCE = 1e-8
 
 @dataclass(frozen=True)
 class Setting:
-    """A method, its steps per second and, for a hull of a shape, the probes that stand for it."""
+    """An integrator, its steps per second and, for a hull of a shape, the probes under it."""
 
     integrator: str
     rate: float
@@ -145,10 +145,10 @@ def choices(given):
     return tuple(sorted({*PROBES, own}, key=lambda probes: (probes[0] * probes[1], probes)))
 
 
-def step_costs(trial, methods=METHOD_NAMES, repeats=5):
-    """Return {(probes, method): CPU time in s of one step}, measured here and now."""
+def step_costs(trial, integrators=INTEGRATORS, repeats=5):
+    """Return {(probes, integrator): CPU time in s of one step}, measured here and now."""
     probes = choices(trial.stretch.given)
-    return step_seconds({p: trial.run(p) for p in probes}, methods, repeats=repeats)
+    return step_seconds({p: trial.run(p) for p in probes}, integrators, repeats=repeats)
 
 
 def candidates(seconds, rates=RATES):
@@ -159,9 +159,10 @@ def candidates(seconds, rates=RATES):
     """
     found, cheapest = [], {}
     # More probes never cost less; where it looks so, the clock was disturbed.
-    for (probes, method), second in reversed(seconds.items()):
-        cheapest[method] = min(cheapest.get(method, math.inf), second)
-        found += [(rate * cheapest[method], Setting(method, rate, probes)) for rate in rates]
+    for (probes, integrator), second in reversed(seconds.items()):
+        cheapest[integrator] = min(cheapest.get(integrator, math.inf), second)
+        found += [(rate * cheapest[integrator], Setting(integrator, rate, probes))
+                  for rate in rates]
     return sorted(found, key=lambda pair: (pair[0], pair[1].probe_count))
 
 
