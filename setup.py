@@ -20,8 +20,9 @@ package_name = 'boat_buoyancy'
 
 setup(
     name=package_name,
-    version='0.1.0',
+    version='0.2.0',
     packages=find_packages(include=[package_name, package_name + '.*']),
+    package_data={package_name: ['py.typed']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
@@ -37,12 +38,12 @@ setup(
         'chart': ['matplotlib', 'scipy'],
         # Compiles the step; without it everything works, slower.
         'fast': ['numba'],
-        'test': ['hypothesis', 'matplotlib', 'pytest', 'scipy'],
+        'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy'],
     },
     zip_safe=True,
     maintainer='boat_buoyancy maintainers',
     maintainer_email='maintainers@users.noreply.h-seed-4fa897fd.example',
-    description='Floats boats: a fixed-rate buoyancy node, and its physics as a NumPy library.',
+    description='Floats boats: a fixed-rate buoyancy node, and its physics as a library.',
     license='Apache-2.0',
     entry_points={
         'console_scripts': [

@@ -32,6 +32,7 @@ import time
 os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
 os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 101))
 
+from boat_buoyancy.physics.compiled import kind  # noqa: E402
 from diagnostic_msgs.msg import DiagnosticArray  # noqa: E402
 from geometry_msgs.msg import TwistStamped, WrenchStamped  # noqa: E402
 import numpy as np  # noqa: E402
@@ -39,7 +40,7 @@ import numpy as np  # noqa: E402
 # What it shares with the tests: a node in a process of its own, and who listens to it.
 TEST = Path(__file__).parents[1] / 'test'
 sys.path.insert(0, str(TEST))
-from ros_probe import BEST_EFFORT, new_namespace, Probe, ROOT, wrench  # noqa: E402
+from ros_probe import BEST_EFFORT, compile_step, new_namespace, Probe, ROOT, wrench  # noqa: E402
 
 OUTPUTS = ('pose', 'twist', 'odom', 'probe_depth')
 RATES = (50.0, 100.0, 200.0, 500.0, 1000.0)
@@ -91,7 +92,7 @@ from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from std_msgs.msg import Float64MultiArray
 from boat_buoyancy.physics import load_scene
-from boat_buoyancy.physics.boat import body_frame
+from boat_buoyancy.physics.boat.state import body_frame
 rclpy.init()
 node = Node('boat_buoyancy')
 rate = node.declare_parameter('rate', 100.0).value
@@ -275,9 +276,10 @@ def measure(seconds):
     yield from (
         '# What the node costs', '',
         f'Measured by `python benchmarks/ros_node.py --seconds {seconds:g}` on {cpu}, '
-        f'{os.cpu_count()} cores, Python {platform.python_version()}, NumPy {np.__version__}; '
-        'default scene (4 probes, flat water), one subscribing process, localhost. Shares are of '
-        'one core, of the node alone; read ratios, not absolute times.', '',
+        f'{os.cpu_count()} cores, Python {platform.python_version()}, NumPy {np.__version__}, '
+        f'the step {kind()}; default scene (4 probes, flat water), one subscribing process, '
+        'localhost. Shares are of one core, of the node alone; read ratios, not absolute times.',
+        '',
         '## By output, 100 Hz', '')
     rows, none = [], load(SHIPPED, 100.0, (), seconds)
     for topics in ((), *((topic,) for topic in OUTPUTS), OUTPUTS, (*OUTPUTS, 'probes'),
@@ -323,6 +325,7 @@ def main():
     parser.add_argument('--seconds', type=float, default=10.0)
     parser.add_argument('--out', type=Path, default=ROOT / 'doc' / 'ros_speed.md')
     given = parser.parse_args()
+    compile_step({})
     lines = []
     for line in measure(given.seconds):
         print(line, flush=True)

@@ -13,17 +13,22 @@
 # limitations under the License.
 
 """
-The boats that the tests compare with answers from elsewhere.
+The boats that the tests compare with answers from elsewhere, and how they are run.
 
 The reference boat has 1000 kg on four probes of 4905 N/m, so it floats 0.5 m deep and heaves at
 sqrt(19620 / 1000) = 4.42944692 rad/s.
 """
 
-from boat_buoyancy.physics.boat import Boat, Damping, State
-from boat_buoyancy.physics.hull import box_hull, Hull
-from boat_buoyancy.physics.quaternion import from_roll_pitch_yaw
-from boat_buoyancy.physics.simulation import Simulation
-from boat_buoyancy.physics.waves import Sea
+import warnings
+
+from boat_buoyancy.physics.boat.boat import Boat, Damping
+from boat_buoyancy.physics.boat.columns import box_hull
+from boat_buoyancy.physics.boat.hull import Hull
+from boat_buoyancy.physics.boat.state import center_of_mass_state, PARTS, State
+from boat_buoyancy.physics.rotation import from_roll_pitch_yaw
+from boat_buoyancy.physics.sea.waves import Sea
+from boat_buoyancy.physics.stepping.fleet import Fleet
+from boat_buoyancy.physics.stepping.simulation import Simulation
 import numpy as np
 
 GRAVITY = 9.81
@@ -31,9 +36,14 @@ MASS = 1000.0
 STIFFNESS = 19620.0
 DRAFT = MASS * GRAVITY / STIFFNESS
 HEAVE = np.sqrt(STIFFNESS / MASS)
-METHODS = ('leapfrog', 'implicit', 'rk4', 'symplectic_euler', 'euler')
+INTEGRATORS = ('leapfrog', 'implicit', 'rk4', 'symplectic_euler', 'euler')
 LAWS = ('spring', 'soft', 'column')
 SQUARE = np.array([[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]])
+
+
+def same(one, other):
+    """Return whether two `State`s are the same to the bit."""
+    return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in PARTS)
 
 
 def undamped(**changes):
@@ -101,28 +111,56 @@ def turned(roll=0.0, pitch=0.0, yaw=0.0):
     return from_roll_pitch_yaw(roll, pitch, yaw)
 
 
-def run(simulation, seconds, thrust=None):
-    """Step for a while and return time (n + 1,) and the states as one `State` of n + 1 rows."""
-    states = [simulation.state]
-    for _ in range(round(seconds * simulation.rate)):
-        simulation.step(thrust)
-        states.append(simulation.state)
-    return (np.arange(len(states)) / simulation.rate, State(
-        *(np.stack([getattr(state, name) for state in states]) for name in (
-            'position', 'orientation', 'velocity', 'angular_velocity'))))
+def fleet_of(boats, seas, state, **options):
+    """Return a `Fleet`, which in plain Python does not say that it is slow."""
+    with warnings.catch_warnings():
+        warnings.simplefilter('ignore', RuntimeWarning)
+        return Fleet(boats, seas, state, **options)
+
+
+def start(boat, state, *, sea=None, **options):
+    """Return a `Simulation` of one state, or a `Fleet` of the same boat for states (B,)."""
+    sea = sea or Sea()
+    if not state.batch_shape:
+        return Simulation(boat, sea, state, **options)
+    size, = state.batch_shape
+    return fleet_of([boat] * size, [sea] * size, state, **options)
+
+
+def run(moving, seconds, thrust=None):
+    """
+    Move for a while and return time (n + 1,) and the states as one `State` of n + 1 rows.
+
+    ``moving`` is a `Simulation` or a `Fleet`; ``thrust`` as in its step.
+    """
+    count = round(seconds * moving.rate)
+    time = np.arange(count + 1) / moving.rate
+    if isinstance(moving, Simulation):
+        done = moving.run(count / moving.rate, thrust)
+        return time, center_of_mass_state(moving.boat, done.position, done.orientation,
+                                          done.body_velocity, done.angular_velocity)
+    states = [moving.state]
+    for _ in range(count):
+        moving.step(thrust)
+        states.append(moving.state)
+    return time, State(*(np.stack([getattr(state, name) for state in states]) for name in PARTS))
 
 
 def simulate(boat, state, seconds, *, sea=None, thrust=None, **options):
-    """Return time and the states of a run from ``state``; ``options`` as of `Simulation`."""
-    return run(Simulation(boat, sea or Sea(), state, **options), seconds, thrust)
+    """Return time and the states of a run; ``options`` as of `Simulation` or `Fleet`."""
+    return run(start(boat, state, sea=sea, **options), seconds, thrust)
 
 
 def last_state(boat, state, seconds, *, sea=None, thrust=None, **options):
     """Return the state at the end of a run."""
-    simulation = Simulation(boat, sea or Sea(), state, **options)
-    for _ in range(round(seconds * simulation.rate)):
-        simulation.step(thrust)
-    return simulation.state
+    moving = start(boat, state, sea=sea, **options)
+    count = round(seconds * moving.rate)
+    if isinstance(moving, Simulation):
+        moving.run(count / moving.rate, thrust)
+    else:
+        for _ in range(count):
+            moving.step(thrust)
+    return moving.state
 
 
 def crossings(time, value, rate, *, rising):

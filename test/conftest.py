@@ -45,6 +45,14 @@ _missing = [linter for linter in _linters if find_spec(linter) is None]
 collect_ignore = [_linters[linter] for linter in _missing]
 
 
+def pytest_collection_modifyitems(config, items):
+    """Keep the ROS tests on one worker where tests run side by side: they watch rates."""
+    if config.pluginmanager.hasplugin('xdist'):
+        for item in items:
+            if item.path.name.startswith('test_ros_'):
+                item.add_marker(pytest.mark.xdist_group('ros'))
+
+
 def pytest_report_header():
     """Say which linters are not installed, and where the node under test listens."""
     lines = ['ROS_DOMAIN_ID: ' + os.environ['ROS_DOMAIN_ID']]

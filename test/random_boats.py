@@ -16,9 +16,10 @@
 
 from typing import NamedTuple
 
-from boat_buoyancy.physics.boat import Boat, Damping, State
-from boat_buoyancy.physics.hull import LAWS, probe_hull
-from boat_buoyancy.physics.waves import Sea
+from boat_buoyancy.physics.boat.boat import Boat, Damping
+from boat_buoyancy.physics.boat.hull import LAWS, probe_hull
+from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.sea.waves import Sea
 from boats import GRAVITY
 import numpy as np
 from scipy.spatial.transform import Rotation

@@ -30,6 +30,7 @@ import sys
 import threading
 import time
 
+from boat_buoyancy.physics import load_scene
 from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
 from nav_msgs.msg import Odometry
 from rcl_interfaces.srv import (DescribeParameters, GetParameters, ListParameters, SetParameters,
@@ -80,12 +81,19 @@ def as_argument(value):
     return str(value)
 
 
+def compile_step(parameters):
+    """Compile what a node will run: done by the first on a machine, it outlasts the deadline."""
+    load_scene({name: parameters[name] for name in ('integrator', 'hull.probes')
+                if name in parameters}).simulation()
+
+
 def run_and_end(commands, seconds=0.0):
     """
     Return (exit status, lines on standard error) of the program for each list of arguments.
 
     After so many ``seconds`` each gets a SIGINT; 0 = never.
     """
+    compile_step({})
     done = subprocess.run(
         [sys.executable, '-c', RUNS, json.dumps(commands), str(seconds)], cwd=ROOT,
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
@@ -105,11 +113,13 @@ class BoatProcess:
     """
     The node in a process of its own; its log lines are read as they come.
 
-    ``parameters`` {name: value}; ``arguments`` more of the command line, after --ros-args.
+    ``parameters`` {name: value}; ``arguments`` more of the command line, after --ros-args;
+    ``environment`` {name: value} of variables that are other than here.
     """
 
-    def __init__(self, parameters=None, *, namespace=None, arguments=()):
+    def __init__(self, parameters=None, *, namespace=None, arguments=(), environment=None):
         """Start it."""
+        compile_step(parameters or {})
         self.namespace = new_namespace() if namespace is None else namespace
         command = [sys.executable, '-m', 'boat_buoyancy.ros.node', '--ros-args',
                    '-r', f'__ns:={self.namespace}', *arguments]
@@ -117,7 +127,7 @@ class BoatProcess:
             command += ['-p', f'{name}:={as_argument(value)}']
         self.process = subprocess.Popen(
             command, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE, text=True)
+            stderr=subprocess.PIPE, text=True, env={**os.environ, **(environment or {})})
         self.lines = []
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()

@@ -16,8 +16,8 @@
 
 import math
 
-from boat_buoyancy.physics.boat import State
-from boat_buoyancy.physics.quaternion import from_roll_pitch_yaw, to_roll_pitch_yaw
+from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.rotation import from_roll_pitch_yaw, to_roll_pitch_yaw
 from boat_buoyancy.tools.chart import accuracy, time_stepping
 from boat_buoyancy.tools.chart.scenes import BY_NAME, SCENES
 from boat_buoyancy.tools.chart.table import COLUMNS, cost_to_reach, observed_order, Row, write

@@ -17,8 +17,8 @@
 from dataclasses import replace
 from pathlib import Path
 
-from boat_buoyancy.physics.hydrostatics import rest_state
-from boat_buoyancy.physics.scene import load_scene
+from boat_buoyancy.physics.hydrostatics.rest import rest_state
+from boat_buoyancy.physics.scene.scene import load_scene
 from boat_buoyancy.tools.chart import advice, pareto_front, settings
 from boat_buoyancy.tools.chart.settings import Setting, Trial
 from boat_buoyancy.tools.chart.stretch import stretches

@@ -16,6 +16,7 @@
 
 import csv
 
+from boat_buoyancy.physics.compiled import numba
 from boat_buoyancy.tools.chart import (hull_accuracy, speed, speed_accuracy_plots as plots,
                                        speed_plot, speed_report, time_stepping)
 from boat_buoyancy.tools.chart.main import main
@@ -33,12 +34,12 @@ def refused(capsys, *words):
     return programs.refused(main, 'buoyancy_chart', words, capsys)
 
 
-@pytest.mark.parametrize('tolerance', ['0', '-0.01', 'nan', 'inf', 'fine', ''])
-def test_bad_tolerance_gets_one_line(tolerance, capsys, tmp_path):
+def test_bad_tolerance_gets_one_line(capsys, tmp_path):
     scene = tmp_path / 'scene.yaml'
     scene.write_text('/**:\n  ros__parameters:\n    rate: 50.0\n')
-    line = refused(capsys, str(scene), f'--tolerance={tolerance}')
-    assert '--tolerance: expected a finite number above 0, got' in line
+    for tolerance in ('0', '-0.01', 'nan', 'inf', 'fine', ''):
+        line = refused(capsys, str(scene), f'--tolerance={tolerance}')
+        assert '--tolerance: expected a finite number above 0, got' in line
 
 
 def test_bad_scenes_and_options_get_one_line(capsys, tmp_path):
@@ -63,7 +64,7 @@ def test_command_prints_lines_to_paste_with_error_cost_and_speed(capsys, tmp_pat
     pasted = yaml.safe_load('\n'.join(line for line in printed.splitlines()
                                       if line.startswith('    ')))
     assert set(pasted) == {'integrator', 'rate', 'substeps'}
-    for words in ('Error', 'force evaluations', 'ms of CPU time', 'times real time',
+    for words in ('Error', 'force evaluations', 'µs of CPU time', 'times real time',
                   'Next cheaper', 'As the scene stands'):
         assert words in printed
     assert 'trying' in captured.err
@@ -102,34 +103,51 @@ def test_pictures_are_as_wide_as_the_readme_and_equal_for_equal_data(tmp_path):
     assert (tmp_path / 'front.png').read_bytes() == (tmp_path / 'again.png').read_bytes()
 
 
-def made_up_times(quick=False):
-    """Return times in which a step costs 3 us and 0.05 us for every wave at every probe."""
+def made_up_times():
+    """Return times of a step: 3 us and 0.05 us for every wave at every probe; of a call 2 us."""
     best = {}
-    for case in speed.cases(quick):
+    for case in speed.cases(False):
         work = case.probes * case.waves
-        best[case] = {'step': case.boats * (3e-6 + 5e-8 * work),
-                      'trigonometry': case.boats * 4e-8 * work}[case.kind]
+        step = 3.0 + 0.05 * work + 2.0 / case.boats
+        best[case] = 1e-6 * case.boats * {
+            'step': step, 'run': step - 2.0, 'threads': step / 2.0, 'plain': 100.0 * step,
+            'trigonometry': 0.04 * work}[case.kind]
     return best
 
 
 def test_speed_is_told_per_boat_and_held_against_its_trigonometry(tmp_path):
     best = made_up_times()
-    # 4 probes and 4 waves: 3 + 16 x 0.05 us, and 16 x 0.04 us.
-    assert speed_report.microseconds(best, Case('step', 1000, 4, 4)) == pytest.approx(3.8)
     text = speed_report.text(best)
-    assert '| 4 | 3.8 (0.64) | 3.8 (0.64) |' in text
-    assert 'one boat alone costs 1 times what one of 1000 does, and that one 5.94 times' in text
-    assert all(part == pytest.approx(1.0) for _, part in speed_report.slope(best))
+    # 4 probes and 4 waves: 3 + 16 x 0.05 us and the call, beside 16 x 0.04 us.
+    assert ('| waves | 1 boat, plain Python | 1 boat | 1 boat, in a run | 10 boats | 100 boats '
+            '| 1000 boats | 10000 boats | 1000 boats, all threads | 10000 boats, all threads |'
+            ) in text
+    assert ('| 4 | 580 | 5.8 | 3.8 | 4 (0.64) | 3.82 (0.64) | 3.8 (0.64) | 3.8 (0.64) | 1.9 '
+            '| 1.9 |') in text
+    for line in ('one boat alone costs 1.53 times what one of 1000 does, and 1.53 times a step of '
+                 'a run', 'plain Python costs 100 times that one boat',
+                 'one of 1000 boats costs 5.94 times its trigonometry by NumPy, '
+                 'with 64 waves 1.54 times',
+                 '10000 boats take one thread 2 times as long as all processors',
+                 '| rk4 | yes | 580 | 3.8 | 3.8 |'):
+        assert line in text
     speed_plot.draw(best, tmp_path / 'speed.png')
     assert Image.open(tmp_path / 'speed.png').width == 1350
 
 
-def test_every_case_of_the_speed_can_be_measured():
-    cases = [case for case in speed.cases(True) if case.boats <= 10]
-    best = speed.measure(cases[::5], 1)
+def test_every_kind_of_case_of_the_speed_can_be_measured():
+    kinds = {(case.kind, case.boats): case for case in speed.cases(True)
+             if case.integrator == 'leapfrog' and case.boats <= 1000}
+    best = speed.measure(kinds.values(), 1)
+    assert {case.kind for case in best} == {'step', 'run', 'plain', 'threads', 'trigonometry'}
     assert all(time > 0.0 for time in best.values())
-    assert speed.simulation(Case('step', 10, 8, 4)).state.position.shape == (10, 3)
-    assert speed.simulation(Case('step', 1, 16, 0)).sea.is_flat
+    assert speed.moving(Case('step', 10, 8, 4)).state.position.shape == (10, 3)
+    assert speed.moving(Case('step', 1, 16, 0)).sea.is_flat
+
+
+def test_plain_python_is_measured_in_a_process_of_its_own():
+    assert speed.in_process(speed.PLAIN, [Case('plain')], 1)[Case('plain')] > 10.0 * (
+        speed.measure([Case('run')], 1)[Case('run')]) or numba() is None
 
 
 @pytest.mark.long
@@ -137,8 +155,8 @@ def test_quick_speed_writes_text_table_and_picture(capfd, tmp_path):
     assert main(['--speed', '--quick', '--out', str(tmp_path)]) == 0
     captured = capfd.readouterr()
     assert (tmp_path / 'speed.md').read_text() + '\n' == captured.out
-    assert '## Fleets' in captured.out
-    assert 'round 3 of 3' in captured.err
+    assert '## Ratios' in captured.out
+    assert captured.err.count('round 3 of 3') == 2
     with open(tmp_path / 'speed.csv', encoding='utf-8') as file:
         rows = list(csv.DictReader(file))
     assert all(float(row['microseconds_per_boat_step']) > 0.0 for row in rows)

@@ -41,11 +41,16 @@ def test_every_scene_has_the_integrator_that_is_told_to_be_best(rows):
                     'stiff barge': 'implicit'}
 
 
-def test_the_plain_game_loop_is_nowhere_ahead(rows):
+def test_the_plain_game_loop_is_ahead_nowhere_but_where_its_cheaper_step_makes_up_for_more(rows):
     for scene in BY_NAME:
-        for cost in ('evaluations', 'cpu'):
-            ranked = ranking(rows, scene, cost)
-            assert ranked['leapfrog'] < ranked['symplectic_euler']
+        ranked = ranking(rows, scene)
+        assert ranked['leapfrog'] < ranked['symplectic_euler']
+    for scene in SCENES:
+        ranked = ranking(rows, scene.name, 'cpu')
+        assert ranked['leapfrog'] < ranked['symplectic_euler']
+    # The README says that they are level there: a tenth of each other.
+    ranked = ranking(rows, 'stiff barge in swell', 'cpu')
+    assert ranked['symplectic_euler'] == pytest.approx(ranked['leapfrog'], rel=0.1)
 
 
 def test_implicit_kills_free_oscillation_and_lags_a_stiff_boat_in_swell(rows):

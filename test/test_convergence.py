@@ -12,27 +12,34 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-from boat_buoyancy.physics.boat import State
-from boat_buoyancy.physics.waves import Sea
+"""Every integrator has its order, against an adaptive integrator of eighth order."""
+
+from functools import lru_cache
+
+from boat_buoyancy.physics import Sea, State
 from boats import (
-    all_damping, asymmetric_boat, DRAFT, HEAVE, last_state, METHODS, reference_boat, turned,
-    undamped, wind_sea)
+    all_damping, asymmetric_boat, DRAFT, HEAVE, INTEGRATORS, last_state, LAWS, reference_boat,
+    turned, undamped, wind_sea)
 import numpy as np
 import pytest
 from textbook import solve
+
+pytestmark = pytest.mark.plain
 
 ORDER = {'leapfrog': 2, 'implicit': 1, 'rk4': 4, 'symplectic_euler': 1, 'euler': 1}
 # Steps short enough that the leading term of the error stands alone, long enough that it stands
 # above round-off.
 RATES = {1: (1600, 3200), 2: (200, 400), 4: (40, 80)}
-
-DAMPINGS = {
-    'none': undamped(),
-    'retention': undamped(linear_retention=[0.6, 0.5, 0.4], angular_retention=[0.5, 0.4, 0.3]),
-    'probes': undamped(probe=800.0),
-    'linear': undamped(linear=[100.0, 200.0, 300.0, 100.0, 200.0, 300.0]),
-    'quadratic': undamped(quadratic=[300.0, 300.0, 300.0, 200.0, 200.0, 200.0]),
-    'all': all_damping(),
+SECONDS = 0.5
+# From here no probe of a boat that floats in the middle of its probes leaves its spring's slope.
+AFLOAT = State((0.2, -0.1, -0.2), turned(0.05, -0.04, 0.4), (0.4, -0.3, 0.2), (0.15, -0.1, 0.3))
+# Boat, sea and thrust.
+CASES = {
+    'undamped': (asymmetric_boat(floatiness=2.5, damping=undamped()), Sea(), (0.0,) * 6),
+    'probe drag': (asymmetric_boat(floatiness=2.5, damping=undamped(probe=800.0)), Sea(),
+                   (0.0,) * 6),
+    **{law: (asymmetric_boat(law, floatiness=2.5, damping=all_damping()), wind_sea(),
+             (300.0, -100.0, 50.0, 40.0, -60.0, 80.0)) for law in LAWS},
 }
 
 
@@ -41,45 +48,21 @@ def numbers(state):
                            state.angular_velocity])
 
 
-def afloat():
-    """Return a start from which no probe of the smooth boat leaves the slope of its spring."""
-    return State((0.2, -0.1, -0.2), turned(0.05, -0.04, 0.4), (0.4, -0.3, 0.2), (0.15, -0.1, 0.3))
+@lru_cache
+def exact(case):
+    """Return the end of the motion of a case by the textbook."""
+    boat, sea, thrust = CASES[case]
+    return solve(boat, sea, AFLOAT, [SECONDS], thrust)[0]
 
 
-def smooth_boat(damping):
-    """Return the boat without symmetry, floating in the middle of its probes."""
-    return asymmetric_boat(floatiness=2.5, damping=damping)
-
-
-def order_of(method, boat, sea, state, seconds, thrust=None):
-    """Return the order between two steps, a factor of two apart, against the textbook."""
-    exact = solve(boat, sea, state, [seconds], (0.0,) * 6 if thrust is None else thrust)[0]
+@pytest.mark.parametrize('case', CASES)
+@pytest.mark.parametrize('integrator', INTEGRATORS)
+def test_order_on_smooth_motion_in_still_water_and_in_waves_under_thrust(integrator, case):
+    boat, sea, thrust = CASES[case]
     errors = [np.linalg.norm(numbers(last_state(
-        boat, state, seconds, sea=sea, thrust=thrust, rate=rate, integrator=method)) - exact)
-        for rate in RATES[ORDER[method]]]
-    return np.log2(errors[0] / errors[1])
-
-
-@pytest.mark.parametrize('damping', DAMPINGS)
-@pytest.mark.parametrize('method', METHODS)
-def test_order_on_smooth_motion(method, damping):
-    state, boat = afloat(), smooth_boat(DAMPINGS[damping])
-    assert order_of(method, boat, Sea(), state, 0.5) == pytest.approx(ORDER[method], abs=0.15)
-
-
-@pytest.mark.parametrize('method', ['leapfrog', 'implicit', 'rk4'])
-def test_order_in_waves_over_a_current_and_under_thrust(method):
-    thrust = np.array([300.0, -100.0, 50.0, 40.0, -60.0, 80.0])
-    order = order_of(method, smooth_boat(all_damping()), wind_sea(), afloat(), 0.5, thrust)
-    assert order == pytest.approx(ORDER[method], abs=0.15)
-
-
-@pytest.mark.parametrize('law', ['soft', 'column'])
-@pytest.mark.parametrize('method', ['leapfrog', 'implicit', 'rk4'])
-def test_order_with_the_other_laws(method, law):
-    boat = asymmetric_boat(law, floatiness=2.5)
-    order = order_of(method, boat, Sea(), afloat(), 0.5)
-    assert order == pytest.approx(ORDER[method], abs=0.15)
+        boat, AFLOAT, SECONDS, sea=sea, thrust=thrust, rate=rate,
+        integrator=integrator)) - exact(case)) for rate in RATES[ORDER[integrator]]]
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(ORDER[integrator], abs=0.15)
 
 
 def fallen(height, time):
@@ -89,14 +72,14 @@ def fallen(height, time):
     return -DRAFT + DRAFT * np.cos(HEAVE * wet) - speed / HEAVE * np.sin(HEAVE * wet)
 
 
-@pytest.mark.parametrize('method', ['leapfrog', 'rk4'])
-def test_entry_takes_every_method_to_second_order(method):
+@pytest.mark.parametrize('integrator', ['leapfrog', 'rk4'])
+def test_entry_takes_every_integrator_to_second_order(integrator):
     # One drop may hit the surface at the end of a step by luck: many drops, root mean square.
-    heights = np.linspace(0.5, 1.5, 400)
-    errors = []
-    for rate in (20, 40, 80, 160, 320):
-        state = last_state(reference_boat(), State(np.outer(heights, (0.0, 0.0, 1.0))), 1.0,
-                           rate=rate, integrator=method)
+    heights = np.linspace(0.5, 1.5, 100)
+    boat, rates, errors = reference_boat(positions=[[0.0, 0.0, 0.0]]), (20, 40, 80, 160), []
+    for rate in rates:
+        state = last_state(boat, State(np.outer(heights, (0.0, 0.0, 1.0))), 1.0, rate=rate,
+                           integrator=integrator)
         errors.append(np.sqrt(np.mean((state.position[:, 2] - fallen(heights, 1.0))**2)))
-    slope = np.polyfit(np.log2([20, 40, 80, 160, 320]), np.log2(errors), 1)[0]
+    slope = np.polyfit(np.log2(rates), np.log2(errors), 1)[0]
     assert slope == pytest.approx(-2.0, abs=0.1)

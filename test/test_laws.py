@@ -12,17 +12,22 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-from boat_buoyancy.physics.boat import Boat, Damping, State
-from boat_buoyancy.physics.hull import Hull, probe_hull
-from boat_buoyancy.physics.simulation import Simulation
-from boat_buoyancy.physics.waves import Sea
+from itertools import product
+
+from boat_buoyancy.physics.boat.boat import Boat, Damping
+from boat_buoyancy.physics.boat.hull import Hull, probe_hull
+from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.sea.waves import Sea
+from boat_buoyancy.physics.stepping.simulation import Simulation
 from boats import (
-    asymmetric_boat, last_state, LAWS, MASS, METHODS, reference_boat, SQUARE, turned, undamped,
-    wind_sea)
+    asymmetric_boat, INTEGRATORS, last_state, LAWS, MASS, reference_boat, SQUARE, turned,
+    undamped, wind_sea)
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from textbook import solve, wrench
+
+pytestmark = pytest.mark.plain
 
 GRAVITY = 9.81
 WEIGHT = MASS * GRAVITY
@@ -52,18 +57,19 @@ def one_probe(law, depth, roll=0.0, *, height=0.8, share=3.0):
     return (linear[2] + GRAVITY) / (share * GRAVITY), angular * 500.0 / (share * WEIGHT)
 
 
-@pytest.mark.parametrize('depth', [-5.0, -1e-6, 0.0, 0.1, 0.4, 0.7999, 0.8, 0.81, 100.0])
-def test_lift_of_an_upright_probe(depth):
-    wet = min(max(depth, 0.0), 0.8)
-    assert one_probe('spring', depth)[0] == pytest.approx(wet / 0.8, abs=1e-10)
-    assert one_probe('column', depth)[0] == pytest.approx(wet / 0.8, abs=1e-10)
-    assert one_probe('soft', depth)[0] == pytest.approx(
-        1.0 - np.exp(-max(depth, 0.0) / 0.8), abs=1e-10)
+def test_lift_of_an_upright_probe():
+    for depth in (-5.0, -1e-6, 0.0, 0.1, 0.4, 0.7999, 0.8, 0.81, 100.0):
+        wet = min(max(depth, 0.0), 0.8)
+        assert one_probe('spring', depth)[0] == pytest.approx(wet / 0.8, abs=1e-10)
+        assert one_probe('column', depth)[0] == pytest.approx(wet / 0.8, abs=1e-10)
+        assert one_probe('soft', depth)[0] == pytest.approx(
+            1.0 - np.exp(-max(depth, 0.0) / 0.8), abs=1e-10)
 
 
 def test_laws_have_the_same_slope_at_the_surface():
+    # To first order: 1 - exp(-x) is less than x by x / 2 of it.
     for law in LAWS:
-        assert one_probe(law, 1e-4)[0] == pytest.approx(1e-4 / 0.8, rel=1e-3)
+        assert one_probe(law, 1e-4)[0] == pytest.approx(1e-4 / 0.8, rel=1e-4 / 0.8)
 
 
 def thin_column(depth, roll, height, pieces=20000):
@@ -75,15 +81,16 @@ def thin_column(depth, roll, height, pieces=20000):
     return lift, (under * -along * np.sin(roll)).mean()
 
 
-@pytest.mark.parametrize('degrees', [0, 20, 60, 80, 100, 135, 180, -45, -150])
-@pytest.mark.parametrize('depth', [-0.5, -0.1, 0.05, 0.2, 0.5, 1.5])
-def test_column_lifts_as_its_slices_do_at_any_heel(degrees, depth):
-    roll, height = np.radians(degrees), 0.8
-    lift, torque = one_probe('column', depth, roll, height=height)
-    exact_lift, arm = thin_column(depth, roll, height)
-    assert lift == pytest.approx(exact_lift, abs=1e-4)
-    # The arm of slices up the column: r x F with F up, about x: y of the point times lift.
-    assert torque == pytest.approx((arm, 0.0, 0.0), abs=1e-4)
+def test_column_lifts_as_its_slices_do_at_any_heel():
+    for degrees, depth in product((0, 20, 60, 80, 100, 135, 180, -45, -150),
+                                  (-0.5, -0.1, 0.05, 0.2, 0.5, 1.5)):
+        roll, height = np.radians(degrees), 0.8
+        lift, torque = one_probe('column', depth, roll, height=height)
+        exact_lift, arm = thin_column(depth, roll, height)
+        # One slice more or less at either end.
+        assert lift == pytest.approx(exact_lift, abs=1e-4), (degrees, depth)
+        # The arm of slices up the column: r x F with F up, about x: y of the point times lift.
+        assert torque == pytest.approx((arm, 0.0, 0.0), abs=1e-4), (degrees, depth)
 
 
 def test_column_upside_down_is_wet_from_its_top_end():
@@ -117,17 +124,17 @@ def test_gravity_acts_once_and_makes_no_torque(law):
 
 
 @pytest.mark.parametrize('law', LAWS)
-@pytest.mark.parametrize('count', [1, 2, 4, 8, 100])
-def test_more_probes_never_add_lift(law, count):
-    boat = reference_boat(positions=np.zeros((count, 3)), weights=np.linspace(1, 3, count),
-                          law=law, floatiness=1.2)
-    for depth in (0.1, 0.3, 0.59):
-        one = one_probe(law, depth, height=0.6, share=1.2)[0]
-        linear, _ = acceleration(boat, State((0.0, 0.0, -depth)))
-        assert (linear[2] + GRAVITY) / (1.2 * GRAVITY) == pytest.approx(one, abs=1e-10)
-    # Far below: all of the budget and no more.
-    linear, _ = acceleration(boat, State((0.0, 0.0, -500.0)))
-    assert linear[2] == pytest.approx(0.2 * GRAVITY, abs=1e-9)
+def test_more_probes_never_add_lift(law):
+    for count in (1, 2, 4, 8, 100):
+        boat = reference_boat(positions=np.zeros((count, 3)), weights=np.linspace(1, 3, count),
+                              law=law, floatiness=1.2)
+        for depth in (0.1, 0.3, 0.59):
+            one = one_probe(law, depth, height=0.6, share=1.2)[0]
+            linear, _ = acceleration(boat, State((0.0, 0.0, -depth)))
+            assert (linear[2] + GRAVITY) / (1.2 * GRAVITY) == pytest.approx(one, abs=1e-10)
+        # Far below: all of the budget and no more.
+        linear, _ = acceleration(boat, State((0.0, 0.0, -500.0)))
+        assert linear[2] == pytest.approx(0.2 * GRAVITY, abs=1e-9)
 
 
 def test_budget_is_shared_by_weight():
@@ -167,23 +174,23 @@ def test_floatiness_decides_whether_a_deep_boat_sinks_hangs_or_rises(floatiness,
     assert state.velocity[2] == pytest.approx(speed * GRAVITY, abs=1e-10)
 
 
-@pytest.mark.parametrize('method', METHODS)
-def test_retention_is_the_part_of_the_speed_kept_after_a_second(method):
-    # Deep below with floatiness 1, and the exact discrete decay of every method.
+@pytest.mark.parametrize('integrator', INTEGRATORS)
+def test_retention_is_the_part_of_the_speed_kept_after_a_second(integrator):
+    # Deep below with floatiness 1, and the exact discrete decay of every integrator.
     kept, rate, seconds = 0.6, 50.0, 3
-    d, h = -np.log(kept), 1.0 / rate
+    x = -np.log(kept) / rate
     boat = reference_boat(floatiness=1.0, damping=undamped(linear_retention=[kept]))
     start = State((0.0, 0.0, -100.0), velocity=(2.0, -1.0, 0.5))
-    state = last_state(boat, start, seconds, rate=rate, integrator=method)
-    factor = {
-        'leapfrog': ((1 - d * h / 4) / (1 + d * h / 4))**2,
-        'implicit': 1 / (1 + d * h),
-        'rk4': 1 - d * h + (d * h)**2 / 2 - (d * h)**3 / 6 + (d * h)**4 / 24,
-        'symplectic_euler': 1 - d * h, 'euler': 1 - d * h}[method]
+    state = last_state(boat, start, seconds, rate=rate, integrator=integrator)
+    # The decay of one step, and by how much of itself it misses exp(-x), to leading order.
+    factor, error = {
+        'leapfrog': (((1 - x / 4) / (1 + x / 4))**2, x**3 / 48),
+        'implicit': (1 / (1 + x), x**2 / 2),
+        'rk4': (1 - x + x**2 / 2 - x**3 / 6 + x**4 / 24, x**5 / 120),
+        'symplectic_euler': (1 - x, x**2 / 2), 'euler': (1 - x, x**2 / 2)}[integrator]
     steps = round(rate * seconds)
     assert state.velocity == pytest.approx(start.velocity * factor**steps, rel=1e-12)
-    assert factor**steps == pytest.approx(kept**seconds, rel={
-        'leapfrog': 2e-5, 'rk4': 1e-9}.get(method, 1e-2))
+    assert factor**steps == pytest.approx(kept**seconds, rel=1.02 * steps * error)
 
 
 def test_each_axis_of_the_body_keeps_its_own_part():
@@ -201,21 +208,21 @@ def test_each_axis_of_the_body_keeps_its_own_part():
         assert state.angular_velocity == pytest.approx(spin * kept, abs=1e-6)
 
 
-@pytest.mark.parametrize('wet_probes', [0, 1, 2, 3, 4])
-def test_retention_mixes_water_and_air_by_the_wet_part(wet_probes):
+def test_retention_mixes_water_and_air_by_the_wet_part():
     # Probes one above the other: the lower ones deep in water, the upper ones in the air.
-    heights = [-5.0] * wet_probes + [5.0] * (4 - wet_probes)
     damping = undamped(linear_retention=[0.5], angular_retention=[0.25],
                        air_linear_retention=[0.9], air_angular_retention=[0.8])
-    boat = reference_boat(positions=[(0.0, 0.0, z) for z in heights], floatiness=4.0,
-                          damping=damping)
-    linear, angular = acceleration(boat, State(velocity=(2.0, 0.0, 0.0),
-                                               angular_velocity=(0.0, 0.0, 0.3)))
-    part = wet_probes / 4
-    assert linear[0] == pytest.approx(
-        2.0 * (part * np.log(0.5) + (1 - part) * np.log(0.9)), abs=1e-9)
-    assert angular[2] == pytest.approx(
-        0.3 * (part * np.log(0.25) + (1 - part) * np.log(0.8)), abs=1e-9)
+    for wet_probes in range(5):
+        heights = [-5.0] * wet_probes + [5.0] * (4 - wet_probes)
+        boat = reference_boat(positions=[(0.0, 0.0, z) for z in heights], floatiness=4.0,
+                              damping=damping)
+        linear, angular = acceleration(boat, State(velocity=(2.0, 0.0, 0.0),
+                                                   angular_velocity=(0.0, 0.0, 0.3)))
+        part = wet_probes / 4
+        assert linear[0] == pytest.approx(
+            2.0 * (part * np.log(0.5) + (1 - part) * np.log(0.9)), abs=1e-9)
+        assert angular[2] == pytest.approx(
+            0.3 * (part * np.log(0.25) + (1 - part) * np.log(0.8)), abs=1e-9)
 
 
 def test_damping_ramps_in_over_the_first_tenth_of_the_column():
@@ -253,4 +260,5 @@ def test_motion_is_that_of_the_textbook(law):
     state = last_state(boat, start, 0.8, sea=sea, thrust=thrust, rate=2500, integrator='rk4')
     got = np.concatenate([state.position, state.orientation, state.velocity,
                           state.angular_velocity])
-    assert got == pytest.approx(exact, abs=2e-6)
+    # Either is of second order across a kink, and the five probes pass a dozen: 12 h^2.
+    assert got == pytest.approx(exact, abs=12 / 2500**2)

@@ -18,9 +18,10 @@ import math
 from pathlib import Path
 import re
 
-from boat_buoyancy.physics import load_scene, parameter_file
-from boat_buoyancy.physics.parameter_values import checked
-from boat_buoyancy.physics.parameters import check_names, PARAMETERS
+from boat_buoyancy.physics import load_scene
+from boat_buoyancy.physics.scene import parameter_file
+from boat_buoyancy.physics.scene.parameter_values import checked
+from boat_buoyancy.physics.scene.parameters import check_names, PARAMETERS
 import numpy as np
 import pytest
 

@@ -14,8 +14,8 @@
 
 """The chart's reference solution against closed forms and an independent model."""
 
-from boat_buoyancy.physics.boat import State
-from boat_buoyancy.physics.waves import Sea
+from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.sea.waves import Sea
 from boat_buoyancy.tools.chart.accuracy import apart, reference_error, Run
 from boat_buoyancy.tools.chart.reference_solution import solve
 from boats import (asymmetric_boat, box_boat, DRAFT, HEAVE, MASS, reference_boat, undamped,
@@ -86,9 +86,8 @@ def test_quadratic_drag_slows_a_floating_boat_as_the_logarithm():
         found, MASS / drag * np.log1p(drag * speed / MASS * TIMES), atol=1e-10)
 
 
-@pytest.mark.parametrize('law', ['spring', 'soft', 'column'])
-def test_it_agrees_with_a_model_written_a_second_time(law):
-    boat, sea = asymmetric_boat(law), wind_sea()
+def test_it_agrees_with_a_model_written_a_second_time():
+    boat, sea = asymmetric_boat('column'), wind_sea()
     start = State((0.0, 0.0, 0.4), (0.0, 0.0, 0.0, 1.0), (0.3, -0.2, 0.0), (0.2, -0.3, 0.1))
     times = np.linspace(0.0, 1.2, 7)
     # Without restarts, so with short steps to keep what the kinks cost small.

@@ -12,9 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-from boat_buoyancy.physics.boat import Boat, State
-from boat_buoyancy.physics.hull import Hull
-from boat_buoyancy.physics.quaternion import to_roll_pitch_yaw
+from boat_buoyancy.physics.boat.boat import Boat
+from boat_buoyancy.physics.boat.hull import Hull
+from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.rotation import to_roll_pitch_yaw
 from boats import (
     crossings, DRAFT, HEAVE, last_state, MASS, reference_boat, simulate, STIFFNESS, turned,
     undamped)
@@ -22,6 +23,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
+
+pytestmark = pytest.mark.plain
 
 GRAVITY = 9.81
 SPEED = np.sqrt(2 * GRAVITY)  # after a fall of 1 m
@@ -41,15 +44,24 @@ def roll_and_rate(states):
     return roll, states.angular_velocity[:, 0]
 
 
-@pytest.mark.parametrize(('method', 'rate', 'error'), [
-    ('rk4', 400, 1e-8), ('leapfrog', 2000, 1e-6), ('implicit', 2000, 1e-5)])
-def test_heave_has_the_period_of_mass_on_springs(method, rate, error):
+@pytest.mark.parametrize(('integrator', 'rate'), [
+    ('rk4', 400), ('leapfrog', 2000), ('implicit', 2000)])
+def test_heave_has_the_period_of_mass_on_springs(integrator, rate):
     time, states = simulate(reference_boat(), released(-DRAFT + 0.1), 4.5,
-                            rate=rate, integrator=method)
+                            rate=rate, integrator=integrator)
     height, speed = heave_of(states)
     up = crossings(time, height + DRAFT, speed, rising=True)
     assert HEAVE == pytest.approx(4.42944692, abs=5e-9)
-    assert np.diff(up) == pytest.approx(1.41850335, abs=error)
+    # The angle by which one step turns a linear oscillation, and how much it is too small.
+    h, u = 1.0 / rate, HEAVE / rate
+    turn, late = {
+        'rk4': (np.arctan2(u - u**3 / 6, 1 - u**2 / 2 + u**4 / 24), u**4 / 120),
+        'leapfrog': (2 * np.arcsin(u / 2), u**2 / 24),
+        'implicit': (np.arctan(u), u**2 / 3)}[integrator]
+    assert 2 * np.pi / turn * h == pytest.approx(1.41850335, rel=1.01 * late + 4e-9)
+    # Crossings are found on cubics; the speeds of implicit lag by up to one step.
+    slack = u * h if integrator == 'implicit' else 1e-10
+    assert np.diff(up) == pytest.approx(2 * np.pi / turn * h, abs=slack)
 
 
 def test_undamped_heave_is_a_cosine():
@@ -58,14 +70,14 @@ def test_undamped_heave_is_a_cosine():
     assert states.position[:, 2] == pytest.approx(-DRAFT + 0.1 * np.cos(HEAVE * time), abs=2e-9)
 
 
-@pytest.mark.parametrize(('method', 'rate'), [('rk4', 200), ('leapfrog', 4000)])
-def test_heave_with_a_fifth_of_critical_damping(method, rate):
+@pytest.mark.parametrize(('integrator', 'rate'), [('rk4', 200), ('leapfrog', 4000)])
+def test_heave_with_a_fifth_of_critical_damping(integrator, rate):
     boat = reference_boat(damping=undamped(probe=1771.776))
     decay = 1771.776 / (2 * MASS)
     damped = np.sqrt(HEAVE**2 - decay**2)
     assert decay / HEAVE == pytest.approx(0.2, abs=1e-6)
     # The first maximum after the release is one damped period later.
-    time, states = simulate(boat, released(-DRAFT + 0.1), 1.6, rate=rate, integrator=method)
+    time, states = simulate(boat, released(-DRAFT + 0.1), 1.6, rate=rate, integrator=integrator)
     height, speed = heave_of(states)
     acceleration = -HEAVE**2 * (height + DRAFT) - 2 * decay * speed
     late = time > 1.0
@@ -82,8 +94,8 @@ def test_heave_with_a_fifth_of_critical_damping(method, rate):
     assert height + DRAFT == pytest.approx(0.1 * course, abs=1e-7)
 
 
-@pytest.mark.parametrize(('method', 'rate'), [('rk4', 4000), ('leapfrog', 4000)])
-def test_drop_from_one_metre(method, rate):
+@pytest.mark.parametrize(('integrator', 'rate'), [('rk4', 4000), ('leapfrog', 4000)])
+def test_drop_from_one_metre(integrator, rate):
     # Free fall, then half a swing about the draft that begins at the surface at full speed.
     entry = np.sqrt(2 / GRAVITY)
     amplitude = np.hypot(DRAFT, SPEED / HEAVE)
@@ -92,7 +104,7 @@ def test_drop_from_one_metre(method, rate):
     assert DRAFT + amplitude == pytest.approx(1.61803399, abs=5e-9)
     assert 2 * entry + wet == pytest.approx(1.82164682, abs=5e-9)
 
-    time, states = simulate(reference_boat(), released(1.0), 1.9, rate=rate, integrator=method)
+    time, states = simulate(reference_boat(), released(1.0), 1.9, rate=rate, integrator=integrator)
     height, speed = heave_of(states)
     depth = -height
     assert crossings(time, depth, -speed, rising=True)[0] == pytest.approx(entry, abs=1e-7)
@@ -103,8 +115,8 @@ def test_drop_from_one_metre(method, rate):
     assert top == pytest.approx(2 * entry + wet, abs=1e-6)
 
 
-@pytest.mark.parametrize(('method', 'rate'), [('rk4', 4000), ('leapfrog', 4000)])
-def test_drop_from_three_metres_through_the_cap(method, rate):
+@pytest.mark.parametrize(('integrator', 'rate'), [('rk4', 4000), ('leapfrog', 4000)])
+def test_drop_from_three_metres_through_the_cap(integrator, rate):
     boat = reference_boat(floatiness=3.0)
     entry, full = np.sqrt(6 / GRAVITY), 1.5
     fast = np.sqrt(6 * GRAVITY)
@@ -120,7 +132,7 @@ def test_drop_from_three_metres_through_the_cap(method, rate):
     cycle = 2 * entry + 2 * to_cap + capped
     assert cycle == pytest.approx(2.63380021, abs=5e-9)
 
-    time, states = simulate(boat, released(3.0), 2.7, rate=rate, integrator=method)
+    time, states = simulate(boat, released(3.0), 2.7, rate=rate, integrator=integrator)
     height, speed = heave_of(states)
     depth = -height
     assert crossings(time, depth, -speed, rising=True)[0] == pytest.approx(entry, abs=1e-7)
@@ -157,13 +169,13 @@ TERMINAL_SPEEDS = [(1e-12, 0.0, -1.0, -19.62), (3.0, 0.0, -5000.0, 39.24),
                    (3.0, 1000.0, -5000.0, 13.08)]
 
 
-@pytest.mark.parametrize('method', ['leapfrog', 'implicit', 'rk4', 'euler'])
 @pytest.mark.parametrize(('floatiness', 'probe', 'start', 'speed'), TERMINAL_SPEEDS)
-def test_terminal_speed(method, floatiness, probe, start, speed):
+def test_terminal_speed(floatiness, probe, start, speed):
     boat = reference_boat(floatiness=floatiness, damping=dragged(probe))
-    state = last_state(boat, released(start), 60.0, rate=20, integrator=method)
-    assert state.position[2] < -2.0
-    assert state.velocity == pytest.approx((0.0, 0.0, speed), abs=1e-9)
+    for integrator in ('leapfrog', 'implicit', 'rk4', 'euler'):
+        state = last_state(boat, released(start), 60.0, rate=20, integrator=integrator)
+        assert state.position[2] < -2.0
+        assert state.velocity == pytest.approx((0.0, 0.0, speed), abs=1e-9), integrator
 
 
 @pytest.mark.parametrize(('floatiness', 'probe', 'start', 'speed'), TERMINAL_SPEEDS)
@@ -189,29 +201,17 @@ def rolling_boat(height):
     return reference_boat(positions=offsets, inertia=(500.0, 700.0, 900.0))
 
 
-@pytest.mark.parametrize(('method', 'rate'), [('rk4', 100), ('leapfrog', 2000)])
-def test_roll_has_the_period_of_its_stiffness(method, rate):
+@pytest.mark.parametrize(('integrator', 'rate'), [('rk4', 100), ('leapfrog', 2000)])
+def test_roll_has_the_period_of_its_stiffness(integrator, rate):
     stiffness = STIFFNESS / 3 - MASS * GRAVITY * 0.3
     assert stiffness == pytest.approx(3597.0, abs=1e-9)
     assert 2 * np.pi * np.sqrt(500.0 / stiffness) == pytest.approx(2.34258119, abs=5e-9)
     # Small, as the period grows with the square of the amplitude.
     start = State((0.0, 0.0, 0.3 - DRAFT), turned(roll=1e-4))
-    time, states = simulate(rolling_boat(-0.3), start, 5.5, rate=rate, integrator=method)
+    time, states = simulate(rolling_boat(-0.3), start, 5.5, rate=rate, integrator=integrator)
     roll, spin = roll_and_rate(states)
     periods = np.diff(crossings(time, roll, spin, rising=True))
     assert periods == pytest.approx(2.34258119, abs=1e-6)
-
-
-@pytest.mark.parametrize(('above', 'capsizes'), [(0.6600, False), (0.6733, True)])
-def test_boat_capsizes_when_its_centre_of_mass_is_two_thirds_of_a_metre_up(above, capsizes):
-    assert STIFFNESS / 3 / (MASS * GRAVITY) == pytest.approx(2.0 / 3.0, abs=1e-12)
-    start = State((0.0, 0.0, above - DRAFT), turned(roll=1e-3))
-    _, states = simulate(rolling_boat(-above), start, 60.0, rate=50)
-    roll, _ = roll_and_rate(states)
-    if capsizes:
-        assert abs(roll).max() > 0.1
-    else:
-        assert abs(roll).max() < 1.0001e-3
 
 
 def test_pitch_has_the_period_of_its_stiffness():

@@ -12,16 +12,18 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-from boat_buoyancy.physics.boat import Damping, State
-from boat_buoyancy.physics.simulation import Simulation
-from boat_buoyancy.physics.waves import Sea, wavenumber
+from boat_buoyancy.physics.boat.boat import Damping
+from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.sea.waves import Sea, wavenumber
 from boats import (
-    asymmetric_boat, DRAFT, HEAVE, last_state, MASS, random_states, reference_boat, run,
-    STIFFNESS, undamped, wind_sea)
+    asymmetric_boat, DRAFT, HEAVE, last_state, MASS, random_states, reference_boat, simulate,
+    start, undamped, wind_sea)
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from textbook import dispersion, water
+
+pytestmark = pytest.mark.plain
 
 GRAVITY = 9.81
 
@@ -104,16 +106,16 @@ def test_water_is_that_of_the_textbook(depth):
 
 def test_probes_are_as_deep_as_the_surface_is_above_them():
     sea, boat = wind_sea(), asymmetric_boat()
-    simulation = Simulation(boat, sea, random_states((3, 4), 6), rate=50)
+    fleet = start(boat, random_states((12,), 6), sea=sea, rate=50)
     for _ in range(7):
-        simulation.step()
-    state, depths = simulation.state, simulation.probe_depths
-    assert depths.shape == (3, 4, 5)
-    for place in np.ndindex(3, 4):
-        turn = Rotation.from_quat(state.orientation[place])
-        probes = state.position[place] + turn.apply(boat.probe_offsets)
+        fleet.step()
+    state, depths = fleet.state, fleet.probe_depths
+    assert depths.shape == (12, 5)
+    for i in range(12):
+        turn = Rotation.from_quat(state.orientation[i])
+        probes = state.position[i] + turn.apply(boat.probe_offsets)
         surface = [water(sea, x, y, 7 / 50)[0] for x, y, _ in probes]
-        assert depths[place] == pytest.approx(surface - probes[:, 2], abs=1e-12)
+        assert depths[i] == pytest.approx(surface - probes[:, 2], abs=1e-12)
 
 
 def test_a_sea_set_to_another_hour_is_the_same_sea():
@@ -138,15 +140,14 @@ def response(period, rate):
                           damping=undamped(probe=2 * 0.2 * HEAVE * MASS))
     amplitude = 1e-6
     sea = Sea([[amplitude, period, 0.0, 0.0]])
-    simulation = Simulation(boat, sea, State((0.0, 0.0, -DRAFT)), rate=rate, integrator='rk4')
-    for _ in range(25 * rate):
-        simulation.step()
-    start = simulation.time
-    time, states = run(simulation, 8.0)
+    time, states = simulate(boat, State((0.0, 0.0, -DRAFT)), 33.0, sea=sea, rate=rate,
+                            integrator='rk4')
+    # The last 8 s, when what the start has set off is gone: exp(-0.2 * 4.43 * 25) = 2e-10.
+    time, height = time[25 * rate:], states.position[25 * rate:, 2]
     omega = 2 * np.pi / period
-    angle = omega * (start + time)
+    angle = omega * time
     shape = np.stack([np.cos(angle), np.sin(angle), np.ones_like(angle)], axis=1)
-    (a, b, _), *_ = np.linalg.lstsq(shape, states.position[:, 2], rcond=None)
+    (a, b, _), *_ = np.linalg.lstsq(shape, height, rcond=None)
     k = omega**2 / GRAVITY
     r, z = omega / HEAVE, 0.2
     exact = abs(np.cos(k * half)) * np.sqrt(
@@ -158,9 +159,9 @@ def response(period, rate):
     (20.0, 1.0050), (10.0, 1.0194), (5.0, 1.0676), (3.0, 1.1075), (2.0, 0.7225)])
 def test_heave_in_waves_is_that_of_a_damped_oscillator(period, published):
     measured, exact = response(period, 100)
-    print(measured-exact)
     assert exact == pytest.approx(published, abs=5e-5)
-    assert measured == pytest.approx(exact, abs=2e-5)
+    # What is not linear is of the order of the wave's amplitude in parts of the boat, 1e-6.
+    assert measured == pytest.approx(exact, abs=1e-6)
 
 
 def test_a_boat_drifts_to_the_speed_of_the_current():
@@ -171,12 +172,12 @@ def test_a_boat_drifts_to_the_speed_of_the_current():
         assert state.velocity == pytest.approx((0.4, -0.3, 0.0), abs=1e-9)
 
 
-@pytest.mark.parametrize('method', ['leapfrog', 'implicit', 'rk4'])
-def test_a_boat_that_moves_with_the_current_feels_none(method):
+@pytest.mark.parametrize('integrator', ['leapfrog', 'implicit', 'rk4'])
+def test_a_boat_that_moves_with_the_current_feels_none(integrator):
     boat = reference_boat(damping=Damping(probe=500.0, linear=[100.0] * 6, quadratic=[100.0] * 6))
-    start = State((0.0, 0.0, -DRAFT), velocity=(0.4, -0.3, 0.0))
-    state = last_state(boat, start, 10.0, sea=Sea(current=[0.4, -0.3]), rate=20,
-                       integrator=method)
+    moving = State((0.0, 0.0, -DRAFT), velocity=(0.4, -0.3, 0.0))
+    state = last_state(boat, moving, 10.0, sea=Sea(current=[0.4, -0.3]), rate=20,
+                       integrator=integrator)
     assert state.velocity == pytest.approx((0.4, -0.3, 0.0), abs=1e-12)
     assert state.position == pytest.approx((4.0, -3.0, -DRAFT), abs=1e-11)
 
@@ -184,9 +185,10 @@ def test_a_boat_that_moves_with_the_current_feels_none(method):
 def test_a_long_wave_carries_the_boat_up_and_down():
     boat = reference_boat(damping=undamped(probe=1000.0))
     sea = Sea([[1.0, 60.0, 0.0, 0.0]])
-    simulation = Simulation(boat, sea, State((0.0, 0.0, 1.0 - DRAFT)), rate=20)
-    _, states = run(simulation, 60.0)
-    surface = sea.elevation(states.position[:, 0], states.position[:, 1],
-                            np.arange(len(states.position)) / 20)
-    assert STIFFNESS / MASS > 1000 * (2 * np.pi / 60)**2
-    assert states.position[:, 2] == pytest.approx(surface - DRAFT, abs=3e-3)
+    time, states = simulate(boat, State((0.0, 0.0, 1.0 - DRAFT)), 60.0, sea=sea, rate=20)
+    surface = sea.elevation(states.position[:, 0], states.position[:, 1], time)
+    # An oscillator that follows a slow base lags by r^2 of the amplitude, and that much again
+    # swings freely, as it starts without.
+    r = 2 * np.pi / 60 / HEAVE
+    away = states.position[:, 2] - (surface - DRAFT)
+    assert abs(away).max() < 2 * r**2

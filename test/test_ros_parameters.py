@@ -18,7 +18,7 @@ import math
 from pathlib import Path
 
 from boat_buoyancy.physics import load_scene
-from boat_buoyancy.physics.parameters import PARAMETERS
+from boat_buoyancy.physics.scene.parameters import PARAMETERS
 import numpy as np
 import pytest
 from rcl_interfaces.msg import ParameterType
@@ -243,6 +243,7 @@ def test_what_is_dumped_starts_the_same_boat_again(probe, tmp_path):
         with Probe('/') as one:
             same = one.get_parameters(sorted(names))
     assert same == probe.get_parameters(sorted(names))
+    assert same['sea.waves'].type == ParameterType.PARAMETER_DOUBLE_ARRAY
     for name, value in same.items():
         if name in scene.values:
             ours = scene.values[name]

@@ -17,8 +17,10 @@
 import math
 
 from boat_buoyancy.physics import load_scene
-from boat_buoyancy.physics.simulation import SimulationError
-from boat_buoyancy.physics.waves import Sea
+from boat_buoyancy.physics.compiled import machine_code, numba
+from boat_buoyancy.physics.sea.waves import Sea
+from boat_buoyancy.physics.stepping.march import march_by
+from boat_buoyancy.physics.stepping.simulation import SimulationError
 from boat_buoyancy.ros.session import Session
 import numpy as np
 import pytest
@@ -28,11 +30,16 @@ ROWS = [0.2, 4.0, 0.3, 1.0]
 START = 1_795_415_697_933_873_175  # ns
 
 
+def surface(session, x=1.0, y=-2.0):
+    """Return the height and the velocity of the water under a session's boat, in m and m/s."""
+    sea, time = session.simulation.sea, session.simulation.time
+    return [float(sea.elevation(x, y, time)), *sea.velocity(x, y, time)]
+
+
 def surface_error(session, x=1.0, y=-2.0):
     """Return what the surface in a session is off that of the sea at its stamp, in m."""
     expected = session.sea.elevation(x, y, session.stamp % 4_000_000_000 / 1e9)
-    simulation = session.simulation
-    return float(simulation.sea.at(simulation.time).elevation(x, y, simulation.time) - expected)
+    return surface(session, x, y)[0] - expected
 
 
 def test_the_sea_is_a_function_of_the_stamp_from_the_first_step_on():
@@ -47,15 +54,46 @@ def test_the_sea_is_a_function_of_the_stamp_from_the_first_step_on():
 
 
 def test_skipped_time_brings_other_water_without_a_jump_and_exactly_after_the_fade():
-    session = Session(load_scene({'sea.waves': ROWS}))
+    session = Session(load_scene({'sea.waves': ROWS, 'sea.transition': 1.0}))
     session.rebase(START)
     for _ in range(100):
         session.step(0.0)
-    before = session.simulation.sea.elevation(1.0, -2.0, session.simulation.time)
+    before = surface(session)
     session.skip(170)
     assert session.stamp == START + 2_700_000_000
-    after = session.simulation.sea.elevation(1.0, -2.0, session.simulation.time)
-    assert after == pytest.approx(before, abs=1e-12)
+    assert surface(session) == pytest.approx(before, abs=1e-12)
+    for _ in range(101):
+        session.step(0.0)
+    assert abs(surface_error(session)) < 1e-9
+
+
+def test_a_new_sea_comes_without_a_jump_and_is_exactly_the_one_given_after_its_fade():
+    session = Session(load_scene({}))
+    session.rebase(START)
+    session.step(0.0)
+    before = surface(session)
+    session.set_waves(Sea(ROWS).waves)
+    assert surface(session) == pytest.approx(before, abs=1e-12)
+    # Four seconds, as sea.transition says when it is left out.
+    for _ in range(400):
+        session.step(0.0)
+        assert not isinstance(session.simulation.sea, Sea)
+    session.step(0.0)
+    assert isinstance(session.simulation.sea, Sea)
+    assert session.simulation.sea.waves[:, :3].tolist() == [ROWS[:3]]
+    assert abs(surface_error(session)) < 1e-12
+
+
+def test_another_boat_in_the_middle_of_a_fade_sees_the_water_of_the_one_before():
+    session = Session(load_scene({}))
+    session.set_waves(Sea(ROWS).waves)
+    for _ in range(200):
+        session.step(0.0)
+    before = surface(session)
+    assert abs(before[0]) > 0.01
+    scene = load_scene({'boat.mass': 2500.0})
+    session.change(scene, scene.simulation())
+    assert surface(session) == pytest.approx(before, abs=1e-12)
     for _ in range(201):
         session.step(0.0)
     assert abs(surface_error(session)) < 1e-9
@@ -108,15 +146,32 @@ def test_a_seed_without_an_irregular_sea_leaves_the_waves_of_a_message():
     assert session.sea.waves.ravel().tolist() == ROWS
 
 
-def test_a_flood_of_seas_ends_with_the_last_of_them():
+def test_a_flood_of_seas_ends_with_the_last_of_them_and_no_step_grows_dearer():
     session = Session(load_scene({'sea.transition': 1.0}))
     for i in range(300):
         session.set_waves(Sea([[0.1, 3.0 + 0.01 * i, 0.0, 0.0]]).waves)
         session.step(0.0)
-    for _ in range(300):
+        # What was there, what interrupted it, and what comes.
+        assert session.simulation.sea.table.shape[1] <= 3
+    for _ in range(201):
         session.step(0.0)
     assert isinstance(session.simulation.sea, Sea)
     assert session.simulation.sea.waves[0, 1] == pytest.approx(3.0 + 0.01 * 299)
+
+
+@pytest.mark.skipif(numba() is None, reason='Numba is not there')
+def test_neither_another_boat_nor_another_sea_compiles_anything():
+    session = Session(load_scene({'sea.transition': 0.05}))
+    session.step(0.0)
+    step = machine_code(march_by('leapfrog'))
+    before = list(step.signatures)
+    session.thrust.hold((100.0, 0.0, 0.0, 0.0, 0.0, 0.0), False, 0.0)
+    for values in ({'boat.mass': 2500.0}, {'sea.sea_state': 3}, {'sea.current': [1.0, 0.0]}):
+        scene = load_scene({'sea.transition': 0.05, **values})
+        session.change(scene, scene.simulation())
+        for _ in range(7):
+            session.step(0.0)
+    assert step.signatures == before
 
 
 def test_a_fault_stops_the_motion_until_reset(monkeypatch):

@@ -18,7 +18,7 @@ from array import array
 import math
 import re
 
-from boat_buoyancy.physics.waves import Sea
+from boat_buoyancy.physics.sea.waves import Sea
 from boat_buoyancy.ros.complaints import Refused
 from boat_buoyancy.ros.wave_messages import Duplicates, read_waves
 import numpy as np
@@ -133,7 +133,8 @@ def test_a_latched_publisher_that_came_first_is_heard():
 
 def test_two_nodes_started_apart_see_the_same_water_at_the_same_stamp():
     rows = [0.3, 4.0, 0.3, 1.0, 0.1, 2.5, -1.0, 0.2]
-    sea = {'sea.waves': rows, 'boat.mass': 2000.0, 'status_period': 0.0}
+    # Without a fade: a node that fell behind takes the sea of its stamp at once.
+    sea = {'sea.waves': rows, 'sea.transition': 0.0, 'status_period': 0.0}
     with BoatProcess(sea) as first, Probe(first.namespace) as probe:
         poses, _, _, _ = probe.listen_to_boat()
         clouds = probe.listen(PointCloud2, 'probes')

@@ -21,7 +21,7 @@ import random
 import subprocess
 import sys
 
-from boat_buoyancy.physics import parameter_file
+from boat_buoyancy.physics.scene import parameter_file
 import pytest
 import yaml
 
@@ -224,7 +224,7 @@ def test_every_random_word_that_is_taken_is_the_same_to_ros_and_to_yaml(tmp_path
     draw = random.Random(1)
     pieces = [*'0189+-._eExXaynN:~=', 'inf', 'nan', 'true', 'e+', 'e-', '00', '1.', '.5', '1_0']
     taken = []
-    for _ in range(8000):
+    for _ in range(3000):
         word = ''.join(draw.choices(pieces, k=draw.randint(1, 6)))
         try:
             here = read_here(text_of(word))
@@ -234,7 +234,7 @@ def test_every_random_word_that_is_taken_is_the_same_to_ros_and_to_yaml(tmp_path
         if list(here) == ['p']:
             taken.append((word, here['p']))
     kinds = {type(ast.literal_eval(value)) for _, value in taken}
-    assert len(taken) > 1000 and kinds == {int, float, bool, str}
+    assert len(taken) > 400 and kinds == {int, float, bool, str}
     text = HEAD + ''.join(f'    p{i}: {word}\n' for i, (word, _) in enumerate(taken))
     by_ros = read_by_ros([text], tmp_path)[text]
     assert taken == [(word, by_ros[f'p{i}']) for i, (word, _) in enumerate(taken)]

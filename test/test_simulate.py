@@ -17,9 +17,10 @@ from pathlib import Path
 import re
 
 from boat_buoyancy.physics import load_scene
-from boat_buoyancy.physics.boat import body_frame, center_of_mass_state
+from boat_buoyancy.physics.boat.state import body_frame, center_of_mass_state
+from boat_buoyancy.physics.rotation import to_roll_pitch_yaw
+from boat_buoyancy.physics.stepping.simulation import periods_of, Simulation
 from boat_buoyancy.tools import animate, plot, simulate
-from boat_buoyancy.tools.recording import periods_of, record
 from boats import turned
 import numpy as np
 from PIL import Image
@@ -59,16 +60,30 @@ def test_table_holds_the_body_frame_and_the_depths_of_every_period(wavy, tmp_pat
                           '50', '--thrust', *map(str, thrust)]) == 0
     names, rows = table(tmp_path / 'a.csv')
     assert names == ['time', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw', 'vx', 'vy', 'vz', 'wx', 'wy',
-                     'wz', 'depth_0', 'depth_1', 'depth_2', 'depth_3']
-    assert rows.shape == (26, 18)
+                     'wz', 'depth_0', 'depth_1', 'depth_2', 'depth_3', 'roll', 'pitch', 'yaw',
+                     'elevation']
+    assert rows.shape == (26, 22)
     scene = load_scene(wavy)
     simulation = scene.simulation(rate=50.0)
     for row in rows:
         # Bitwise: every number is written with all its digits.
-        expected = np.concatenate([[simulation.time], *body_frame(scene.boat, simulation.state),
-                                   simulation.probe_depths])
-        assert row.tolist() == expected.tolist()
+        pose = body_frame(scene.boat, simulation.state)
+        expected = np.concatenate([[simulation.time], *pose, simulation.probe_depths])
+        assert row[:18].tolist() == expected.tolist()
+        assert row[18:21] == pytest.approx(to_roll_pitch_yaw(pose[1]), abs=1e-14)
+        assert row[21] == pytest.approx(scene.sea.elevation(*pose[0][:2], simulation.time),
+                                        abs=1e-14)
         simulation.step(thrust)
+
+
+@pytest.mark.parametrize('every', [1, 7, 25, 26, 1000])
+def test_every_nth_row_of_the_table_are_those_of_the_whole_table(wavy, tmp_path, every):
+    words = [wavy, '--duration', '0.25', '--csv']
+    assert simulate.main([*words, str(tmp_path / 'all.csv')]) == 0
+    assert simulate.main([*words, str(tmp_path / 'some.csv'), '--every', str(every)]) == 0
+    head, *rows = (tmp_path / 'all.csv').read_text().splitlines()
+    assert len(rows) == 26
+    assert (tmp_path / 'some.csv').read_text().splitlines() == [head, *rows[::every]]
 
 
 def test_twist_is_in_body_axes_at_ninety_degrees_of_yaw(tmp_path):
@@ -86,12 +101,13 @@ def test_twist_is_in_body_axes_at_ninety_degrees_of_yaw(tmp_path):
 
 def test_body_frame_is_not_the_centre_of_mass():
     scene = load_scene(WAVES)
-    recording = record(scene, scene.simulation(), 30, [0.0] * 6)
-    state = center_of_mass_state(scene.boat, recording.position[-1], recording.orientation[-1],
-                                 recording.velocity[-1], recording.angular_velocity[-1])
-    assert state.position == pytest.approx(recording.simulation.state.position, abs=1e-12)
-    assert state.velocity == pytest.approx(recording.simulation.state.velocity, abs=1e-12)
-    assert np.linalg.norm(state.position - recording.position[-1]) == pytest.approx(0.15)
+    simulation = scene.simulation()
+    run = simulation.run(0.3)
+    state = center_of_mass_state(scene.boat, run.position[-1], run.orientation[-1],
+                                 run.body_velocity[-1], run.angular_velocity[-1])
+    assert state.position == pytest.approx(simulation.state.position, abs=1e-12)
+    assert state.velocity == pytest.approx(simulation.state.velocity, abs=1e-12)
+    assert np.linalg.norm(state.position - run.position[-1]) == pytest.approx(0.15)
 
 
 @pytest.mark.parametrize(('duration', 'rate', 'periods'), [
@@ -133,25 +149,22 @@ def test_plot_is_drawn_as_what_its_name_says(wavy, tmp_path, ending, begins):
     assert path.read_bytes().startswith(begins)
 
 
-def plotted(values, duration=1.0, **options):
+def plotted(values, duration=1.0):
     from matplotlib.figure import Figure
-    scene = load_scene(values)
-    simulation = scene.simulation(**options)
-    recording = record(scene, simulation, periods_of(duration, simulation.rate), [0.0] * 6)
-    return recording, Figure().subplots(3, 1)
+    return load_scene(values).simulation().run(duration), Figure().subplots(3, 1)
 
 
 def test_plot_shows_the_run_with_units_on_every_axis():
-    recording, (heave, tilt, depth) = plotted(WAVES)
-    plot.draw_heave(heave, recording)
-    plot.draw_tilt(tilt, recording)
-    plot.draw_depths(depth, recording)
+    run, (heave, tilt, depth) = plotted(WAVES)
+    plot.draw_heave(heave, run)
+    plot.draw_tilt(tilt, run)
+    plot.draw_depths(depth, run)
     assert [axes.get_ylabel() for axes in (heave, tilt, depth)] == [
         'height (m)', 'angle (deg)', 'probe depth (m)\nunder water']
     surface, origin = heave.get_lines()
-    assert np.array_equal(origin.get_ydata(), recording.position[:, 2])
-    expected = [recording.scene.sea.elevation(x, y, t)
-                for (x, y, _), t in zip(recording.position, recording.time)]
+    assert np.array_equal(origin.get_ydata(), run.position[:, 2])
+    sea = load_scene(WAVES).sea
+    expected = [sea.elevation(x, y, t) for (x, y, _), t in zip(run.position, run.time)]
     assert surface.get_ydata() == pytest.approx(expected, abs=1e-12)
     roll, pitch = tilt.get_lines()
     assert np.radians(roll.get_ydata()[0]) == pytest.approx(0.1, abs=1e-12)
@@ -160,15 +173,15 @@ def test_plot_shows_the_run_with_units_on_every_axis():
     assert [line.get_label() for line in lines] == [
         'water surface', 'probe 0', 'probe 1', 'probe 2', 'probe 3']
     for i, line in enumerate(lines[1:]):
-        assert np.array_equal(line.get_ydata(), recording.depths[:, i])
+        assert np.array_equal(line.get_ydata(), run.probe_depths[:, i])
     # Deeper is further down, and nothing is cut off.
     bottom, top = depth.get_ylim()
-    assert bottom > recording.depths.max() and top < min(recording.depths.min(), 0.0)
+    assert bottom > run.probe_depths.max() and top < min(run.probe_depths.min(), 0.0)
 
 
 def test_many_probes_are_drawn_as_their_spread():
-    recording, (_, _, depth) = plotted({'hull.probes': [4, 3]}, 0.1)
-    plot.draw_depths(depth, recording)
+    run, (_, _, depth) = plotted({'hull.probes': [4, 3]}, 0.1)
+    plot.draw_depths(depth, run)
     assert len(depth.get_lines()) == 2
     assert depth.get_legend_handles_labels()[1] == [
         'water surface', 'all 12 probes', 'their mean']
@@ -187,9 +200,8 @@ def test_animation_has_a_frame_every_eighty_milliseconds_in_real_time(wavy, tmp_
 
 
 def test_long_animations_are_played_faster():
-    scene = load_scene({})
-    simulation = scene.simulation(rate=10.0)
-    view = animate.view_of(record(scene, simulation, 600, [0.0] * 6))
+    simulation = load_scene({}).simulation(rate=10.0)
+    view = animate.view_of(simulation.run(60.0), simulation)
     assert len(view.rows) == animate.MAX_FRAMES
     assert view.pace == pytest.approx(60.0 / (0.08 * animate.MAX_FRAMES))
     assert view.rows[0] == 0 and np.ptp(np.diff(view.rows)) <= 1
@@ -227,22 +239,22 @@ def test_outline_is_the_convex_hull():
 
 def test_boat_is_drawn_where_it_is():
     scene = load_scene({'start.position': [3.0, -2.0, 0.5], 'start.orientation': [0.2, 0.1, 1.0]})
-    recording = record(scene, scene.simulation(), 1, [0.0] * 6)
-    probes = animate.placed(recording, 0, scene.boat.hull.positions)
+    run = scene.simulation().run(0.01)
+    probes = animate.placed(run, 0, scene.boat.hull.positions)
     # On flat water a probe is as deep as it lies below 0.
-    assert probes[:, 2] == pytest.approx(-recording.depths[0], abs=1e-12)
-    origin = animate.placed(recording, 0, np.zeros((1, 3)))
+    assert probes[:, 2] == pytest.approx(-run.probe_depths[0], abs=1e-12)
+    origin = animate.placed(run, 0, np.zeros((1, 3)))
     assert origin == pytest.approx(np.array([[3.0, -2.0, 0.5]]), abs=1e-12)
-    assert recording.orientation[0] == pytest.approx(turned(0.2, 0.1, 1.0), abs=1e-15)
+    assert run.orientation[0] == pytest.approx(turned(0.2, 0.1, 1.0), abs=1e-15)
 
 
 @pytest.mark.parametrize(('words', 'says'), [
-    (['--duration', '-5'], r'--duration: expected a finite number above 0, got -5.0'),
-    (['--duration', '0'], '--duration: expected a finite number above 0'),
-    (['--duration', 'nan'], '--duration: expected a finite number above 0, got nan'),
-    (['--duration', 'inf'], '--duration: expected a finite number above 0, got inf'),
+    (['--duration', '-5'], r'duration: expected a finite number above 0, got -5.0'),
+    (['--duration', '0'], 'duration: expected a finite number above 0'),
+    (['--duration', 'nan'], 'duration: expected a finite number above 0, got nan'),
+    (['--duration', 'inf'], 'duration: expected a finite number above 0, got inf'),
     (['--duration', 'long'], "--duration: invalid float value: 'long'"),
-    (['--duration', '1e9'], '--duration: expected at most 10000000 periods, got 1e.09 s'),
+    (['--duration', '1e9'], 'duration: expected at most 10000000 periods, got 1e.09 s'),
     ([], 'the following arguments are required: --duration'),
     (['--duration', '1', '--rate', '0'], 'rate: .*got 0.0'),
     (['--duration', '1', '--rate', '-1e3'], 'rate: .*got -1000.0'),
@@ -253,9 +265,17 @@ def test_boat_is_drawn_where_it_is():
     (['--duration', '1', '--thrust', '1', '2', '3', '4', '5'],
      '--thrust: expected 6 arguments'),
     (['--duration', '1', '--thrust', '1', '2', '3', '4', '5', 'nan'],
-     r'--thrust\[5\]: expected a finite number, got nan'),
+     r'thrust: expected finite numbers, got \[1.0, 2.0, 3.0, 4.0, 5.0, nan\]'),
     (['--duration', '1', '--thrust', '-inf', '2', '3', '4', '5', '6'],
-     r'--thrust\[0\]: expected a finite number, got -inf'),
+     'thrust: expected finite numbers, got .-inf, 2.0'),
+    (['--duration', '1', '--csv', 'a.csv', '--every', '0'],
+     '--every: expected an integer of at least 1, got 0'),
+    (['--duration', '1', '--csv', 'a.csv', '--every', '-3'],
+     '--every: expected an integer of at least 1, got -3'),
+    (['--duration', '1', '--csv', 'a.csv', '--every', '1.5'],
+     "--every: invalid int value: '1.5'"),
+    (['--duration', '1', '--every', '10'],
+     '--every: it thins the table, and none is asked for; give --csv FILE'),
     (['--duration', '1', '--csv', '/no/such/folder/a.csv'],
      '/no/such/folder/a.csv: No such file or directory'),
     (['--duration', '1', '--csv', '/'], '/: Is a directory'),
@@ -274,7 +294,7 @@ def test_missing_scene_gets_one_line_and_exit_code_2(tmp_path, capsys):
 
 
 def test_file_that_cannot_be_written_is_refused_before_the_run(capsys, monkeypatch):
-    monkeypatch.setattr(simulate, 'record', lambda *_: pytest.fail('it ran'))
+    monkeypatch.setattr(Simulation, 'run', lambda *_: pytest.fail('it ran'))
     refused(capsys, DEFAULT, '--duration', '1', '--animate', '/no/such/folder/a.gif')
 
 

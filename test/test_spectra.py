@@ -14,7 +14,8 @@
 
 """Irregular seas: heights, periods and phases against the definitions they come from."""
 
-from boat_buoyancy.physics import Sea, spectra
+from boat_buoyancy.physics import Sea
+from boat_buoyancy.physics.sea import spectra
 import numpy as np
 import pytest
 from scipy import integrate, signal

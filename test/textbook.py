@@ -28,6 +28,12 @@ from scipy.spatial.transform import Rotation
 UP = np.array([0.0, 0.0, 1.0])
 
 
+def cross(a, b):
+    """Return a x b; a fifth of what NumPy's takes."""
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                     a[0] * b[1] - a[1] * b[0]])
+
+
 def dispersion(angular_frequency, depth, gravity):
     """Return the wave number of linear waves, by bracketing."""
     deep = angular_frequency**2 / gravity
@@ -89,9 +95,9 @@ def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,)
         wet, share, along = lift_of_probe(hull.law, height, surface - probe[2], turn[2, 2])
         lift = most * share * UP
         ramp = np.clip(wet / (0.1 * height), 0.0, 1.0)
-        drag = -damping.probe * weight * ramp * (velocity + np.cross(spin_world, arm) - flow)
+        drag = -damping.probe * weight * ramp * (velocity + cross(spin_world, arm) - flow)
         force = force + lift + drag
-        torque = torque + np.cross(arm + along * turn[:, 2], lift) + np.cross(arm, drag)
+        torque = torque + cross(arm + along * turn[:, 2], lift) + cross(arm, drag)
         wetness += weight * ramp
         mean_water = mean_water + weight * flow
     torque = turn.T @ torque
@@ -108,7 +114,7 @@ def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,)
     torque = torque - root @ (rates[3:] * (root @ spin)) - drag[3:]
 
     push, twist = np.array(thrust[:3], float), np.array(thrust[3:], float)
-    return force + turn @ push, torque + twist + np.cross(-boat.center_of_mass, push)
+    return force + turn @ push, torque + twist + cross(-boat.center_of_mass, push)
 
 
 def solve(boat, sea, state, times, thrust=(0.0,) * 6, *, tolerance=1e-12, max_step=np.inf):
@@ -124,7 +130,7 @@ def solve(boat, sea, state, times, thrust=(0.0,) * 6, *, tolerance=1e-12, max_st
         turning = 0.5 * np.array([w * p + y * r - z * q, w * q + z * p - x * r,
                                   w * r + x * q - y * p, -x * p - y * q - z * r])
         return np.concatenate([velocity, turning, force / boat.mass,
-                               inverse @ (torque - np.cross(spin, boat.inertia @ spin))])
+                               inverse @ (torque - cross(spin, boat.inertia @ spin))])
 
     start = np.concatenate([state.position, state.orientation, state.velocity,
                             state.angular_velocity])

@@ -13,18 +13,22 @@
 # limitations under the License.
 
 """
-The physics of boats that float, in NumPy and without ROS.
+The physics of boats that float, without ROS: NumPy, and Numba where it is installed.
 
-``load_scene`` turns a parameter file into a `Scene`, whose ``simulation()`` steps a `Boat`, or a
-fleet, on its `Sea`.  SI units, world x east, y north, z up, z = 0 the mean water level; body
-axes x forward, y left, z up; quaternions (x, y, z, w), body to world; angles in radians.
+``load_scene`` turns a parameter file into a `Scene`, whose ``simulation()`` steps a `Boat` on its
+`Sea`; ``load_fleet`` steps many.  SI units, world x east, y north, z up, z = 0 the mean water
+level; body axes x forward, y left, z up; quaternions (x, y, z, w), body to world; angles in
+radians.
 """
 
-from .boat import Boat, Damping, State
-from .hull import Hull
-from .scene import load_scene, Scene
-from .simulation import Simulation, SimulationError
-from .waves import Sea
+from .boat.boat import Boat, Damping
+from .boat.hull import Hull
+from .boat.state import State
+from .scene.scene import load_fleet, load_scene, Scene
+from .sea.waves import Sea
+from .stepping.fleet import Fleet
+from .stepping.simulation import Simulation, SimulationError
+from .stepping.trajectory import Trajectory
 
-__all__ = ['Boat', 'Damping', 'Hull', 'Scene', 'Sea', 'Simulation', 'SimulationError', 'State',
-           'load_scene']
+__all__ = ['Boat', 'Damping', 'Fleet', 'Hull', 'load_fleet', 'load_scene', 'Scene', 'Sea',
+           'Simulation', 'SimulationError', 'State', 'Trajectory']

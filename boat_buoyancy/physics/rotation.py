@@ -13,115 +13,83 @@
 # limitations under the License.
 
 """
-Free rotation of a rigid body over one step, by exact rotations about its principal axes.
+Rotations as unit quaternions in ROS order (x, y, z, w), body to world.
 
-Dullweber, Leimkuhler, McLachlan, Symplectic splitting methods for rigid body molecular dynamics,
-J. Chem. Phys. 107 (1997): the five rotations R1(h/2) R2(h/2) R3(h) R2(h/2) R1(h/2), each turning
-by h L_a / I_a and turning the body-frame angular momentum back, keep its length to round-off and
-let the energy oscillate as h^2 without drift.
+Quaternions and vectors are tuples of components: floats in the step, arrays of a fleet elsewhere.
 """
 
-from functools import partial
+import math
 
 import numpy as np
 
-from .quaternion import conjugate, multiply, normalise, rotation_matrix, to_body, to_world
+from .compiled import compiled
 
 
-def _turn(sin, cos, half, a, b, c, w, mb, mc):
+@compiled
+def rotation_matrix(quaternion):
     """
-    Turn about the axis a by twice ``half``.
+    Return R, body to world, of a unit quaternion: three rows of three.
 
-    a, b, c, w is the quaternion, mb and mc the momentum about the other two axes; the same six
-    are returned after the turn.
+    Its third row is the world's z axis in body axes.
     """
-    s, k = sin(half), cos(half)
-    sine, cosine = 2.0 * s * k, 1.0 - 2.0 * s * s
-    return (a * k + w * s, b * k + c * s, c * k - b * s, w * k - a * s,
-            cosine * mb + sine * mc, cosine * mc - sine * mb)
+    x, y, z, w = quaternion
+    return ((1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)),
+            (2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)),
+            (2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)))
 
 
-def _five_turns(backend, orientation, momentum, h, moments):
-    """Return orientation and momentum after the five rotations about axes 1, 2 and 3."""
-    (a, b, c, w), (ma, mb, mc) = orientation, momentum
-    about_a, about_b, about_c = (0.25 * h / moments[0], 0.25 * h / moments[1],
-                                 0.5 * h / moments[2])
-    sin, cos = backend.sin, backend.cos
-    a, b, c, w, mb, mc = _turn(sin, cos, about_a * ma, a, b, c, w, mb, mc)
-    b, c, a, w, mc, ma = _turn(sin, cos, about_b * mb, b, c, a, w, mc, ma)
-    c, a, b, w, ma, mb = _turn(sin, cos, about_c * mc, c, a, b, w, ma, mb)
-    b, c, a, w, mc, ma = _turn(sin, cos, about_b * mb, b, c, a, w, mc, ma)
-    a, b, c, w, mb, mc = _turn(sin, cos, about_a * ma, a, b, c, w, mb, mc)
-    return (a, b, c, w), (ma, mb, mc)
+@compiled
+def to_world(R, v):
+    """Return R v, a vector of body axes in world axes."""
+    return (R[0][0] * v[0] + R[0][1] * v[1] + R[0][2] * v[2],
+            R[1][0] * v[0] + R[1][1] * v[1] + R[1][2] * v[2],
+            R[2][0] * v[0] + R[2][1] * v[1] + R[2][2] * v[2])
 
 
-def _rotate_principal(backend, orientation, angular_velocity, h, *, moments, order, back, sign):
+@compiled
+def to_body(R, v):
+    """Return R^T v, a vector of world axes in body axes."""
+    return (R[0][0] * v[0] + R[1][0] * v[1] + R[2][0] * v[2],
+            R[0][1] * v[0] + R[1][1] * v[1] + R[2][1] * v[2],
+            R[0][2] * v[0] + R[1][2] * v[1] + R[2][2] * v[2])
+
+
+@compiled
+def product(p, q):
+    """Return the Hamilton product p q: rotate by q first, then by p."""
+    px, py, pz, pw = p
+    qx, qy, qz, qw = q
+    return (pw * qx + px * qw + py * qz - pz * qy,
+            pw * qy - px * qz + py * qw + pz * qx,
+            pw * qz + px * qy - py * qx + pz * qw,
+            pw * qw - px * qx - py * qy - pz * qz)
+
+
+@compiled
+def normalise(q):
+    """Return the quaternion scaled to unit length."""
+    x, y, z, w = q
+    s = 1.0 / math.sqrt(x * x + y * y + z * z + w * w)
+    return (s * x, s * y, s * z, s * w)
+
+
+def from_roll_pitch_yaw(roll, pitch, yaw):
     """
-    Rotate a body whose principal axes are its body axes, taken in ``order``.
+    Return the quaternion (x, y, z, w) of fixed-axis roll, pitch, yaw in rad (REP-103).
 
-    ``moments`` are in that order and ``back`` undoes it; ``sign`` is -1 for an order of odd
-    parity, where turning the third axis round makes the three right-handed again.
+    Roll is turned first, about x, then pitch about y, then yaw about z, all world axes.
     """
-    i, j, k = order
-    first, second, third = moments
-    (a, b, c, w), (x, y, z) = _five_turns(
-        backend, (orientation[i], orientation[j], sign * orientation[k], orientation[3]),
-        (first * angular_velocity[i], second * angular_velocity[j],
-         sign * third * angular_velocity[k]), h, moments)
-    turned, spin = (a, b, sign * c), (x / first, y / second, sign * z / third)
-    i, j, k = back
-    return (normalise(backend, (turned[i], turned[j], turned[k], w)),
-            (spin[i], spin[j], spin[k]))
+    cr, sr = np.cos(roll / 2), np.sin(roll / 2)
+    cp, sp = np.cos(pitch / 2), np.sin(pitch / 2)
+    cy, sy = np.cos(yaw / 2), np.sin(yaw / 2)
+    return (sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy)
 
 
-def _rotate_turned(backend, orientation, angular_velocity, h, *, moments, axes, matrix):
-    """Rotate a body whose principal axes, the quaternion ``axes``, are not its body axes."""
-    q, w = _rotate_principal(backend, multiply(orientation, axes),
-                             to_body(matrix, angular_velocity), h,
-                             moments=moments, order=(0, 1, 2), back=(0, 1, 2), sign=1.0)
-    return multiply(q, conjugate(axes)), to_world(matrix, w)
-
-
-def _rotate_sphere(backend, orientation, angular_velocity, h):
-    """Rotate a body with three equal moments: one rotation about a fixed axis."""
-    x, y, z = angular_velocity
-    speed = backend.sqrt(x * x + y * y + z * z)
-    half = 0.5 * h * speed
-    # The tiny number keeps a body at rest from 0 / 0 and changes no other.
-    scale = backend.sin(half) / (speed + 1e-300)
-    q = multiply(orientation, (x * scale, y * scale, z * scale, backend.cos(half)))
-    return normalise(backend, q), angular_velocity
-
-
-def free_rotation(boat):
-    """
-    Return the function (backend, orientation, angular_velocity, h) -> the same two after h s.
-
-    ``angular_velocity`` is in body axes.  Chosen once per boat from its inertia.
-    """
-    moments, axes = boat.principal
-    if moments[2] - moments[0] <= 1e-12 * moments[2] and not (
-            boat.inertia - np.diag(np.diag(boat.inertia))).any():
-        return _rotate_sphere
-    # Principal axes along the body axes: columns of the identity in some order.
-    if np.array_equal(np.sort(axes.ravel()), [0] * 6 + [1] * 3):
-        order = tuple(int(axis) for axis in np.argmax(axes, axis=0))
-        return partial(_rotate_principal, order=order, moments=tuple(moments.tolist()),
-                       back=tuple(np.argsort(order).tolist()),
-                       sign=float(np.linalg.det(axes)))
-    quaternion = _quaternion_of(axes)
-    return partial(_rotate_turned, moments=tuple(moments.tolist()), axes=quaternion,
-                   matrix=rotation_matrix(quaternion))
-
-
-def _quaternion_of(matrix):
-    """Return the unit quaternion of a rotation matrix (3, 3)."""
-    # The quaternion is the eigenvector of largest eigenvalue of this symmetric matrix
-    # (Bar-Itzhack 2000), which needs no case by case and is exact to round-off.
-    a, b, c, d, e, f, g, h, i = matrix.ravel()
-    _, vectors = np.linalg.eigh(np.array([
-        [a - e - i, d + b, g + c, h - f],
-        [d + b, e - a - i, h + f, c - g],
-        [g + c, h + f, i - a - e, d - b],
-        [h - f, c - g, d - b, a + e + i]]))
-    return tuple(vectors[:, -1].tolist())
+def to_roll_pitch_yaw(quaternion):
+    """Return roll, pitch, yaw in rad of a unit quaternion; pitch lies within +-pi/2."""
+    x, y, z, w = quaternion
+    roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1.0, 1.0))
+    yaw = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    return roll, pitch, yaw

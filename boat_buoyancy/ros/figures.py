@@ -17,7 +17,9 @@
 from dataclasses import dataclass
 import math
 
-from ..physics import equilibrium, hydrostatics
+from ..physics.compiled import kind
+from ..physics.hydrostatics.natural_modes import modes
+from ..physics.hydrostatics.rest import draft, floats, rest_state
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,7 @@ def values(session, meter, figures, complaints, now):
         'worst step (ms)': f'{1e3 * figures.worst:.3f}',
         'integrator': simulation.integrator,
         'substeps': str(simulation.substeps),
+        'step': kind(),
         'thrust age (s)': 'none' if age is None else f'{age:.2f}',
         'messages refused': str(sum(complaints.counts.values()))}
     shown.update((f'refused, {key}', str(count))
@@ -92,12 +95,11 @@ def loaded(scene, simulation):
             + values['hull.shape'] if 'hull.shape' in values else 'boat')
     count = len(boat.hull.positions)
     what = f'{hull} of {boat.mass:g} kg on {count} probe{"s" if count > 1 else ""}'
-    if hydrostatics.floats(boat):
-        rest = hydrostatics.rest_state(boat)
+    if floats(boat):
         motions = ', '.join(
             f'{name} {mode.period:.3g} s' if mode.period else f'{name} not righted'
-            for name, mode in equilibrium.modes(boat).items())
-        does = f'draft {hydrostatics.draft(boat, rest):.3f} m, {motions}'
+            for name, mode in modes(boat).items())
+        does = f'draft {draft(boat, rest_state(boat)):.3f} m, {motions}'
     else:
         does = f'sinks, floatiness {boat.floatiness:.3g}'
     height = 4.0 * math.sqrt(float((sea.waves[:, 0] ** 2).sum()) / 2.0)
@@ -105,7 +107,8 @@ def loaded(scene, simulation):
              f'{len(sea.waves)} wave{"s" if len(sea.waves) > 1 else ""}, '
              f'significant height {height:.3g} m')
     return (f'{what}: {does}; {simulation.rate:g} Hz, {simulation.integrator}, '
-            f'{simulation.substeps} substep{"s" if simulation.substeps > 1 else ""}; {water}')
+            f'{simulation.substeps} substep{"s" if simulation.substeps > 1 else ""}, {kind()}; '
+            f'{water}')
 
 
 def status_line(frame, time, real_time_factor, paused):
@@ -118,4 +121,4 @@ def status_line(frame, time, real_time_factor, paused):
     roll, pitch = (round(math.degrees(angle), 1) + 0.0 for angle in (roll, pitch))
     pace = 'paused' if paused else f'real-time factor {real_time_factor:.2f}'
     return (f't {time:.1f} s, x {x:.2f} y {y:.2f} z {z:.3f} m, roll {roll:.1f} pitch {pitch:.1f} '
-            f'deg, speed {math.hypot(*frame.velocity):.2f} m/s, {pace}')
+            f'deg, speed {math.hypot(*frame.body_velocity):.2f} m/s, {pace}')

@@ -32,7 +32,8 @@ from std_msgs.msg import Float64MultiArray
 
 from . import qos
 from .pacing import NANOSECONDS
-from ..physics.quaternion import cross, rotation_matrix, to_world
+from ..physics.rotation import rotation_matrix, to_world
+from ..physics.vectors import add, cross, subtract
 
 CLOUD_FIELDS = ('x', 'y', 'z', 'depth', 'force')
 
@@ -41,7 +42,7 @@ class Frame:
     """
     One instant of a boat, as the messages want it: Python floats of the body frame.
 
-    ``stamp`` ns; ``position`` and ``orientation`` in the world, ``velocity`` and
+    ``stamp`` ns; ``position`` and ``orientation`` in the world, ``body_velocity`` and
     ``angular_velocity`` in body axes; ``simulation`` for what is asked more rarely.
     """
 
@@ -49,24 +50,19 @@ class Frame:
         """Take the present state of a `Session`."""
         self.stamp, self.simulation = session.stamp, session.simulation
         motion, offset = self.simulation.motion, session.center_of_mass
-        # rclpy does not look at types: anything but a float would go out as garbage.
-        position, self.orientation, velocity, self.angular_velocity = (
-            tuple(map(float, values)) for values in (
-                motion.position, motion.orientation, motion.velocity, motion.angular_velocity))
+        # Floats, all of them: rclpy does not look at types, an integer would go out as garbage.
+        self.orientation, self.angular_velocity = motion.orientation, motion.angular_velocity
         self._rotation = rotation_matrix(self.orientation)
-        lever, swing = to_world(self._rotation, offset), cross(self.angular_velocity, offset)
-        self.position = tuple(a - b for a, b in zip(position, lever))
-        self.velocity = tuple(a - b for a, b in zip(velocity, swing))
+        self.position = subtract(motion.position, to_world(self._rotation, offset))
+        self.body_velocity = subtract(motion.body_velocity, cross(self.angular_velocity, offset))
 
     def to_world(self, place):
         """Return a place of the body frame, three floats in m, in the world."""
-        turned = to_world(self._rotation, place)
-        return tuple(a + b for a, b in zip(self.position, turned))
+        return add(self.position, to_world(self._rotation, place))
 
     def probe_places(self):
         """Return the probes (n, 3) m in the world."""
-        rotation = np.reshape(self._rotation, (3, 3))
-        return self.simulation.boat.hull.positions @ rotation.T + self.position
+        return self.simulation.boat.hull.positions @ np.transpose(self._rotation) + self.position
 
 
 class Outputs:
@@ -133,7 +129,7 @@ def set_pose(pose, position, orientation):
 
 
 def _set_twist(twist, frame):
-    set_vector(twist.linear, frame.velocity)
+    set_vector(twist.linear, frame.body_velocity)
     set_vector(twist.angular, frame.angular_velocity)
 
 

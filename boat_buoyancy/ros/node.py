@@ -39,8 +39,10 @@ from .reports import Reports
 from .session import Session
 from .thrust import read_wrench
 from .wave_messages import WavesInput, WavesOutput
-from ..physics.parameters import NODE_NAME
-from ..physics.scene import scene_from_values, sea_warnings
+from ..physics.compiled import notice
+from ..physics.scene.parameters import NODE_NAME
+from ..physics.scene.scene import scene_from_values, sea_warnings
+from ..physics.stepping.march import march_by
 
 IDLE = 0.05  # s between looks at the signals and clocks when nothing is due
 
@@ -52,13 +54,16 @@ class BoatNode(ParameterNode):
         """Read the parameters and start; ValueError says what is wrong with them."""
         super().__init__(NODE_NAME)
         given = self.given_values()
-        scene = scene_from_values(given)
-        self._own_clock = scene.values['publish_clock']
         self._sim_time = self.get_parameter('use_sim_time').value
-        startup.check_time(scene.values, self._sim_time)
+        with startup.warnings_said(self.get_logger().warning):
+            scene = scene_from_values(given)
+            startup.check_time(scene.values, self._sim_time)
+            # Said before it is done: it takes long.
+            if compiling := notice(march_by(scene.integrator)):
+                self.get_logger().info(compiling)
+            self.session = Session(scene)
+        self._own_clock = scene.values['publish_clock']
         wall = not self._own_clock and not self._sim_time
-        # Whatever makes the first simulation take long is said here, before it is made.
-        self.session = Session(scene)
         self.declare(scene)
         LiveParameters(self, given, scene, self._change)
         self._paused = False

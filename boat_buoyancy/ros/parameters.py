@@ -26,9 +26,9 @@ from rcl_interfaces.msg import (FloatingPointRange, IntegerRange, ParameterDescr
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from ..physics import parameters, scene as scenes
-from ..physics.parameter_file import ROS_OWN
-from ..physics.parameters import PARAMETERS, WAVE_KINDS
+from ..physics.scene.parameter_file import ROS_OWN
+from ..physics.scene.parameters import check_names, PARAMETERS, WAVE_KINDS
+from ..physics.scene.scene import scene_from_values
 
 TYPES = {
     'float': Parameter.Type.DOUBLE, 'int': Parameter.Type.INTEGER, 'bool': Parameter.Type.BOOL,
@@ -131,6 +131,9 @@ class ParameterNode(Node):
         self.declare_parameters('', [
             (name, ros_parameter(name, value).value, descriptor(PARAMETERS[name]))
             for name, value in scene.values.items()], ignore_override=True)
+        # Declared by its value alone, an empty list is one of bytes.
+        self.set_parameters([ros_parameter(name, value)
+                             for name, value in scene.values.items() if value == ()])
 
 
 class LiveParameters:
@@ -154,7 +157,7 @@ class LiveParameters:
         self._proposal = self._refusal = None
         try:
             given = self._merged(requested)
-            scene = scenes.scene_from_values(given)
+            scene = scene_from_values(given)
             names = {parameter.name for parameter in requested}
             self._proposal = given, scene, scene.simulation(), frozenset(names)
         except Exception as error:  # a raise here would be the end of the node
@@ -171,7 +174,7 @@ class LiveParameters:
         for name in names:
             if is_ros_own(name):
                 raise ValueError(f'{name}: cannot change while the node runs')
-        parameters.check_names(names)
+        check_names(names)
         for parameter in requested:
             if PARAMETERS[parameter.name].read_only:
                 raise ValueError(f'{parameter.name}: cannot change while the node runs; '

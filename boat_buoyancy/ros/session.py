@@ -26,10 +26,10 @@ import numpy as np
 
 from .pacing import NANOSECONDS, Timeline
 from .thrust import ThrustLatch
-from ..physics.hydrostatics import rest_state
-from ..physics.parameters import WAVE_KINDS
-from ..physics.simulation import SimulationError
-from ..physics.transition import fade, SeaTransition
+from ..physics.hydrostatics.rest import rest_state
+from ..physics.scene.parameters import WAVE_KINDS
+from ..physics.sea.fading import fade, FadingSea
+from ..physics.stepping.simulation import SimulationError
 
 # Parameters that ask for waves; the rest of sea.* only shapes them.
 WAVES = frozenset(name for kind in WAVE_KINDS for name in kind)
@@ -72,11 +72,6 @@ class Session:
         """Return the stamp of the present state in ns."""
         return self._timeline.stamp(self.steps)
 
-    @property
-    def transition(self):
-        """Return the s over which a new sea replaces the old."""
-        return self.scene.values['sea.transition']
-
     def step(self, now):
         """
         Advance one period; ``now`` s on the steady clock decides which thrust acts.
@@ -87,12 +82,12 @@ class Session:
         if self.fault:
             return False
         simulation = self.simulation
-        if self._waiting:
-            self._turn_to(self._clocked(self.sea))
         sea = simulation.sea
-        if isinstance(sea, SeaTransition) and sea.settled(simulation.time):
-            # Exactly the sea that was given, without what shifting it in time rounded off.
-            simulation.sea = self._clocked(self.sea) if not self._waiting else sea.new
+        if isinstance(sea, FadingSea) and sea.settled(simulation.time):
+            if self._waiting:
+                self._fade_to_given()
+            else:
+                simulation.sea = self._clocked(self.sea)
         try:
             simulation.step(self.thrust.wrench(now, self._orientation))
         except SimulationError as error:
@@ -115,7 +110,7 @@ class Session:
         if np.array_equal(rows, self.sea.waves):
             return False
         self.sea = replace(self.sea, waves=rows)
-        self._turn_to(self._clocked(self.sea))
+        self._fade_to_given()
         return True
 
     def change(self, scene, simulation, names=()):
@@ -134,12 +129,12 @@ class Session:
             self._earlier += old.steps
             simulation.reset(old.state)
             simulation.sea = (old.sea.starting_at(old.time)
-                              if isinstance(old.sea, SeaTransition) else self._clocked(self.sea))
+                              if isinstance(old.sea, FadingSea) else self._clocked(self.sea))
         waves = (scene.sea.waves if WAVES.intersection(names)
                  or not np.array_equal(scene.sea.waves, before.sea.waves) else self.sea.waves)
         if not np.array_equal(waves, self.sea.waves) or changed & {'sea.current', 'sea.depth'}:
             self.sea = replace(scene.sea, waves=waves)
-            self._turn_to(self._clocked(self.sea))
+            self._fade_to_given()
 
     def skip(self, periods):
         """Let the time of the stamps go on by so many periods in which the boat did not move."""
@@ -156,14 +151,16 @@ class Session:
         if self.steps == 0:
             self.simulation.sea = self._clocked(self.sea)
         elif not self.sea.is_flat:
-            self._turn_to(self._clocked(self.sea))
+            self._fade_to_given()
 
-    def _turn_to(self, sea):
-        """Fade over to ``sea``, or note that it has to wait."""
-        faded = fade(self.simulation.sea, sea, self.simulation.time, self.transition)
+    def _fade_to_given(self):
+        """Fade over to the sea as given, or note that it has to wait: the newest wins."""
+        simulation = self.simulation
+        faded = fade(simulation.sea, self._clocked(self.sea), simulation.time,
+                     self.scene.values['sea.transition'])
         self._waiting = faded is None
         if faded is not None:
-            self.simulation.sea = faded
+            simulation.sea = faded
 
     def _clocked(self, sea):
         """Return a sea of stamp times as the simulation has to see it, which counts from 0."""

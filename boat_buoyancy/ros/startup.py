@@ -17,11 +17,12 @@
 from contextlib import contextmanager
 import os
 import sys
+import warnings
 
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.utilities import remove_ros_args
 
-from ..physics import parameter_file
+from ..physics.scene import parameter_file
 
 try:
     from rclpy.experimental.events_executor import EventsExecutor
@@ -101,6 +102,17 @@ def remarks(node, given, values):
             f'time_factor is {values["time_factor"]:g} and publish_clock is false: the stamps '
             'leave wall time, and nobody is told; set publish_clock to true')
     return sentences
+
+
+@contextmanager
+def warnings_said(say):
+    """Call ``say`` with each of Python's warnings, which it would print with lines of source."""
+    with warnings.catch_warnings(record=True) as caught:
+        try:
+            yield
+        finally:
+            for warning in caught:
+                say(' '.join(str(warning.message).split()))
 
 
 @contextmanager

@@ -15,7 +15,7 @@
 """Thrust: a wrench as it comes, and how long the last one acts."""
 
 from .complaints import check_finite, check_frame, Refused
-from ..physics.quaternion import rotation_matrix, to_body
+from ..physics.rotation import rotation_matrix, to_body
 
 # No thruster lifts a thousand times its boat: what asks for that is a fault.
 MAX_THRUST = 1000.0  # boat weights

@@ -18,7 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..physics.quaternion import rotation_matrix
+from ..physics import Sea
+from ..physics.rotation import rotation_matrix
 
 ENDINGS = ('.gif',)
 FRAME_MILLISECONDS = 80
@@ -38,7 +39,7 @@ class View:
 
     ``corners`` (n, 3) m of the hull and ``probes`` (p, 3) m in the body frame; ``reach`` m of
     water shown to every side; ``low`` and ``high`` m, the heights shown; ``swing`` m, the
-    highest wave; ``rows`` of the recording to draw; ``pace``, simulated over shown time.
+    highest wave; ``rows`` of the run to draw; ``pace``, simulated over shown time; ``sea``.
     """
 
     corners: np.ndarray
@@ -49,14 +50,15 @@ class View:
     swing: float
     rows: np.ndarray
     pace: float
+    sea: Sea
 
 
-def write(path, recording):
-    """Draw a `Recording` of one boat into a GIF file."""
+def write(path, run, simulation):
+    """Draw the `Trajectory` ``run`` of a simulation into a GIF file."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from PIL import Image
-    view = view_of(recording)
+    view = view_of(run, simulation)
     figure = Figure(figsize=(7.2, 3.6), dpi=100, layout='constrained')
     canvas = FigureCanvasAgg(figure)
     side, above = figure.subplots(1, 2, width_ratios=[WIDER, 1.0])
@@ -64,8 +66,8 @@ def write(path, recording):
     for row in view.rows:
         side.clear()
         above.clear()
-        draw_side(side, recording, view, row)
-        draw_above(above, recording, view, row)
+        draw_side(side, run, view, row)
+        draw_above(above, run, view, row)
         canvas.draw()
         # The layout of the first frame is kept, or the axes would jitter with their labels.
         figure.set_layout_engine('none')
@@ -86,22 +88,22 @@ def with_white(image):
     return image
 
 
-def view_of(recording):
-    """Return the `View` that holds all of a recording."""
-    corners = hull_corners(recording.scene.boat)
+def view_of(run, simulation):
+    """Return the `View` that holds all of a run."""
+    corners = hull_corners(simulation.boat)
     size = max(np.linalg.norm(corners - corners.mean(axis=0), axis=1).max(), 0.2)
-    step = max(FRAME_MILLISECONDS / 1000.0, recording.time[-1] / MAX_FRAMES)
-    moments = np.arange(0.0, recording.time[-1] * (1.0 - 1e-9), step)
-    swing = float(recording.scene.sea.waves[:, 0].sum())
-    heights = recording.position[:, 2]
+    step = max(FRAME_MILLISECONDS / 1000.0, run.time[-1] / MAX_FRAMES)
+    moments = np.arange(0.0, run.time[-1] * (1.0 - 1e-9), step)
+    swing = float(simulation.sea.waves[:, 0].sum())
+    heights = run.position[:, 2]
     low = min(heights.min() - size, -swing - 0.5 * size)
     high = max(heights.max() + size, swing + 0.5 * size)
     # The views stand side by side, equally tall and to one scale.
     reach = max(2.2 * size, (high - low) * WIDER / 2)
     room = reach / WIDER - (high - low) / 2
-    return View(corners, recording.scene.boat.hull.positions, reach, low - room, high + room,
-                swing, np.round(moments * recording.simulation.rate).astype(int),
-                step / FRAME_MILLISECONDS * 1000.0)
+    return View(corners, simulation.boat.hull.positions, reach, low - room, high + room,
+                swing, np.round(moments * simulation.rate).astype(int),
+                step / FRAME_MILLISECONDS * 1000.0, simulation.sea)
 
 
 def hull_corners(boat):
@@ -142,21 +144,20 @@ def outline(points):
     return np.array(chain(ordered) + chain(ordered[::-1]))
 
 
-def placed(recording, row, points):
-    """Return body points (n, 3) in world axes at one row of a recording."""
-    turn = np.reshape(rotation_matrix(tuple(recording.orientation[row])), (3, 3))
-    return recording.position[row] + points @ turn.T
+def placed(run, row, points):
+    """Return body points (n, 3) in world axes at one row of a run."""
+    turn = np.reshape(rotation_matrix(tuple(run.orientation[row])), (3, 3))
+    return run.position[row] + points @ turn.T
 
 
-def draw_side(axes, recording, view, row):
+def draw_side(axes, run, view, row):
     """Draw a cut through the water along the heading, with the boat before it."""
-    x, y, _ = recording.position[row]
-    yaw = recording.roll_pitch_yaw[row, 2]
+    x, y, _ = run.position[row]
+    yaw = run.yaw[row]
     ahead = np.array([np.cos(yaw), np.sin(yaw), 0.0])
     along = np.linspace(-view.reach, view.reach, 241)
-    surface = recording.scene.sea.elevation(x + along * ahead[0], y + along * ahead[1],
-                                            recording.time[row])
-    corners, probes = (placed(recording, row, points) - [x, y, 0.0]
+    surface = view.sea.elevation(x + along * ahead[0], y + along * ahead[1], run.time[row])
+    corners, probes = (placed(run, row, points) - [x, y, 0.0]
                        for points in (view.corners, view.probes))
     line = outline(np.column_stack([corners @ ahead, corners[:, 2]]))
     axes.fill_between(along, surface, view.low, color=WATER, linewidth=0.0)
@@ -164,29 +165,29 @@ def draw_side(axes, recording, view, row):
     # The water in front of the hull, seen through.
     axes.fill_between(along, surface, view.low, color=WATER, alpha=0.45, linewidth=0.0)
     axes.plot(along, surface, color=SURFACE, linewidth=1.5)
-    draw_probes(axes, probes @ ahead, probes[:, 2], recording.depths[row])
+    draw_probes(axes, probes @ ahead, probes[:, 2], run.probe_depths[row])
     axes.set(xlim=(-view.reach, view.reach), ylim=(view.low, view.high), aspect='equal',
              facecolor=BEHIND, xlabel='ahead (m)', ylabel='height (m)')
     pace = f' ({view.pace:.1f} times as fast)' if view.pace > 1.01 else ''
-    axes.set_title(f'from starboard, {recording.time[row]:.1f} s{pace}', fontsize='medium')
+    axes.set_title(f'from starboard, {run.time[row]:.1f} s{pace}', fontsize='medium')
 
 
-def draw_above(axes, recording, view, row):
+def draw_above(axes, run, view, row):
     """Draw the boat on its water from above, crests light and troughs dark."""
-    x, y, _ = recording.position[row]
+    x, y, _ = run.position[row]
     across = np.linspace(-view.reach, view.reach, GRID)
     if view.swing > 0.0:
         east, north = np.meshgrid(x + across, y + across)
-        height = recording.scene.sea.elevation(east, north, recording.time[row])
+        height = view.sea.elevation(east, north, run.time[row])
         axes.contourf(east, north, height, cmap='Blues_r', alpha=0.9,
                       levels=np.linspace(-1.6 * view.swing, 1.2 * view.swing, LEVELS))
-    track = recording.position[:row + 1, :2]
+    track = run.position[:row + 1, :2]
     axes.plot(*track.T, color=EDGE, linewidth=1.2, linestyle=':')
-    corners, probes = (placed(recording, row, points)
+    corners, probes = (placed(run, row, points)
                        for points in (view.corners, view.probes))
     axes.fill(*outline(corners[:, :2]).T, facecolor=HULL, edgecolor=EDGE, linewidth=1.5)
-    axes.fill(*placed(recording, row, bow_mark(view.corners))[:, :2].T, color=EDGE)
-    draw_probes(axes, probes[:, 0], probes[:, 1], recording.depths[row])
+    axes.fill(*placed(run, row, bow_mark(view.corners))[:, :2].T, color=EDGE)
+    draw_probes(axes, probes[:, 0], probes[:, 1], run.probe_depths[row])
     axes.set(xlim=(x - view.reach, x + view.reach), ylim=(y - view.reach, y + view.reach),
              aspect='equal', facecolor=WATER, xlabel='x (m)', ylabel='y (m)')
     axes.set_title('from above', fontsize='medium')

@@ -18,8 +18,9 @@ import argparse
 from importlib import import_module
 import os
 import sys
+import warnings
 
-from ..physics.simulation import SimulationError
+from ..physics.stepping.simulation import SimulationError
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -71,7 +72,11 @@ def run(program, work):
     that closes the pipe early, as ``head`` does, is no error.
     """
     try:
-        work()
+        with warnings.catch_warnings():
+            # In one line, without where in the sources.
+            warnings.showwarning = lambda message, *_: print(
+                f'{program}: {one_line(message)}', file=sys.stderr)
+            work()
         sys.stdout.flush()
     except BrokenPipeError:
         # Python flushes once more at exit; nobody reads that either.

@@ -25,14 +25,18 @@ LEAST_HEIGHT, LEAST_ANGLE = 0.1, 2.0
 # With more probes than colours the lines are drawn alike: their spread is what can be read.
 
 
-def write(path, recording):
-    """Draw a `Recording` into a file; its ending, one of ENDINGS, says which kind."""
+def write(path, run, simulation):
+    """
+    Draw the `Trajectory` ``run`` of a simulation into a file.
+
+    Its ending, one of ENDINGS, says which kind.
+    """
     from matplotlib.figure import Figure
     figure = Figure(figsize=(9.0, 7.5), layout='constrained')
     heave, tilt, depth = figure.subplots(3, 1, sharex=True)
-    draw_heave(heave, recording)
-    draw_tilt(tilt, recording)
-    draw_depths(depth, recording)
+    draw_heave(heave, run)
+    draw_tilt(tilt, run)
+    draw_depths(depth, run)
     for axes in (heave, tilt, depth):
         axes.grid(True, color='0.9', linewidth=0.8)
         axes.set_axisbelow(True)
@@ -40,16 +44,15 @@ def write(path, recording):
         axes.margins(x=0.0)
         axes.legend(loc='center left', bbox_to_anchor=(1.01, 0.5), frameon=False)
     depth.set_xlabel('time (s)')
-    simulation = recording.simulation
-    figure.suptitle(f'{recording.scene.boat.mass:g} kg, {simulation.integrator} at '
+    figure.suptitle(f'{simulation.boat.mass:g} kg, {simulation.integrator} at '
                     f'{simulation.rate:g} Hz', fontsize='medium')
     figure.align_ylabels()
     figure.savefig(path, dpi=100)
 
 
-def draw_heave(axes, recording):
+def draw_heave(axes, run):
     """Draw the height of the body origin over the water under it."""
-    time, height, surface = recording.time, recording.position[:, 2], recording.surface
+    time, height, surface = run.time, run.position[:, 2], run.elevation
     low, high = padded(np.concatenate([height, surface]), LEAST_HEIGHT)
     axes.fill_between(time, surface, low, color=WATER, alpha=0.25, linewidth=0.0)
     axes.plot(time, surface, color=WATER, linewidth=1.5, label='water surface\nat the boat')
@@ -58,19 +61,19 @@ def draw_heave(axes, recording):
     axes.set_ylabel('height (m)')
 
 
-def draw_tilt(axes, recording):
+def draw_tilt(axes, run):
     """Draw roll and pitch in degrees."""
-    roll, pitch, _ = np.degrees(recording.roll_pitch_yaw).T
-    axes.plot(recording.time, roll, color=ROLL, linewidth=1.5, label='roll\n(+ starboard down)')
-    axes.plot(recording.time, pitch, color=PITCH, linewidth=1.5, linestyle='--',
+    roll, pitch, _ = np.degrees(run.roll_pitch_yaw).T
+    axes.plot(run.time, roll, color=ROLL, linewidth=1.5, label='roll\n(+ starboard down)')
+    axes.plot(run.time, pitch, color=PITCH, linewidth=1.5, linestyle='--',
               label='pitch\n(+ bow down)')
     axes.set_ylim(*padded(np.concatenate([roll, pitch]), LEAST_ANGLE))
     axes.set_ylabel('angle (deg)')
 
 
-def draw_depths(axes, recording):
+def draw_depths(axes, run):
     """Draw how deep every probe is under the surface, downwards."""
-    time, depths = recording.time, recording.depths
+    time, depths = run.time, run.probe_depths
     low, high = padded(np.append(depths, 0.0), LEAST_HEIGHT)
     axes.axhspan(0.0, high, color=WATER, alpha=0.25, linewidth=0.0)
     axes.axhline(0.0, color=WATER, linewidth=1.5, label='water surface')

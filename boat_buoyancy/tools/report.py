@@ -25,7 +25,13 @@ import textwrap
 import numpy as np
 
 from . import command_line
-from ..physics import equilibrium, flotation, hydrostatics, load_scene, righting, stability
+from ..physics.compiled import expected_kind
+from ..physics.hydrostatics.metacentric_height import metacentric_heights
+from ..physics.hydrostatics.natural_modes import MODES, modes
+from ..physics.hydrostatics.rest import draft, floats, rest_state
+from ..physics.hydrostatics.righting_arm import righting_arms, wall_sided_heel
+from ..physics.scene.scene import load_scene
+from ..physics.step_size.limits import max_stable_steps
 
 PROGRAM = 'buoyancy_report'
 HEEL_DEGREES = np.arange(0.0, 181.0, 5.0)
@@ -41,52 +47,49 @@ def figures(scene):
     None stands for what does not exist: the draft of a boat that sinks, the period of what does
     not oscillate, the limit of an integrator without one.
     """
-    boat, simulation = scene.boat, scene.simulation()
-    floating = hydrostatics.floats(boat)
-    transverse, longitudinal = flotation.metacentric_heights(boat)
-    modes = equilibrium.modes(boat) if floating else {}
-    heel = np.radians(HEEL_DEGREES)
+    boat, plan = scene.boat, scene.plan()
+    floating = floats(boat)
+    transverse, longitudinal = metacentric_heights(boat)
+    motions = modes(boat) if floating else {}
+    arms = righting_arms(boat, np.radians(HEEL_DEGREES))
     return {
-        'draft_m': float(hydrostatics.draft(boat, hydrostatics.rest_state(boat)))
-        if floating else None,
+        'draft_m': draft(boat, rest_state(boat)) if floating else None,
         'floatiness': boat.floatiness,
         # A boat that sinks displaces its whole hull, which is less than its mass.
         'displacement_kg': boat.mass * min(1.0, boat.floatiness),
         'gm_transverse_m': transverse,
         'gm_longitudinal_m': longitudinal,
-        **{f'{name}_period_s': modes[name].period if floating else None
-           for name in equilibrium.MODES},
-        **{f'{name}_damping_ratio': modes[name].damping_ratio if floating else None
-           for name in equilibrium.MODES},
-        'max_stable_step_s': stability.max_stable_steps(boat),
-        'substeps': simulation.substeps,
-        'warnings': list(simulation.warnings),
+        **{f'{name}_period_s': motions[name].period if floating else None for name in MODES},
+        **{f'{name}_damping_ratio': motions[name].damping_ratio if floating else None
+           for name in MODES},
+        'max_stable_step_s': max_stable_steps(boat),
+        'substeps': plan.substeps,
+        'warnings': [*scene.warnings, *plan.warnings],
         'gz_heel_deg': HEEL_DEGREES.tolist(),
-        'gz_m': [None if np.isnan(arm) else arm + 0.0
-                 for arm in righting.righting_arms(boat, heel).tolist()],
-        'gz_exact_to_deg': exact_heel_degrees(scene)}
+        'gz_m': [None if np.isnan(arm) else arm + 0.0 for arm in arms.tolist()],
+        'gz_exact_to_deg': exact_heel_degrees(scene),
+        'step': expected_kind()}
 
 
 def exact_heel_degrees(scene):
     """Return up to which heel in degrees GZ is the real box's; None for any other hull."""
     values, boat = scene.values, scene.boat
-    if values.get('hull.shape') != 'box' or not hydrostatics.floats(boat):
+    if values.get('hull.shape') != 'box' or not floats(boat):
         return None
     # One column across, or a law without columns, has no waterplane to heel with.
     if values['hull.probes'][1] < 2 or values['probes.law'] != 'column':
         return None
     _, beam, depth = values['hull.size']
-    return float(np.degrees(righting.wall_sided_heel(beam, depth, depth / boat.floatiness)))
+    return float(np.degrees(wall_sided_heel(beam, depth, depth / boat.floatiness)))
 
 
 def text(source, scene, result):
     """Return the figures as lines for a person; ``source`` is the name of the scene's file."""
-    simulation = scene.simulation()
     return '\n'.join([
         f'{source}: {scene.boat.mass:.6g} kg, '
         f'{_counted(len(scene.boat.hull.positions), "probe")}, law {scene.boat.hull.law}', '',
         *_at_rest(result), '', *_motions(result), '',
-        *_steps(result, simulation), '', *_righting(result), '', *_warnings(result)])
+        *_steps(result, scene), '', *_righting(result), '', *_warnings(result)])
 
 
 def _at_rest(result):
@@ -104,15 +107,17 @@ def _at_rest(result):
 
 def _motions(result):
     yield 'Small motions about rest    period s   damping ratio (1 = no overshoot)'
-    for name in equilibrium.MODES:
+    for name in MODES:
         period, ratio = result[f'{name}_period_s'], result[f'{name}_damping_ratio']
         yield f'  {name:<23} {_number(period, 5):>10}   {_number(ratio, 3):>10}'
     yield '  The mass of water that moves along is not modelled: real hulls are slower.'
 
 
-def _steps(result, simulation):
-    yield (f'Steps: {simulation.rate:g} Hz with {simulation.integrator}, '
-           f'{_counted(simulation.substeps, "substep")} in each period')
+def _steps(result, scene):
+    yield (f'Steps: {scene.rate:g} Hz with {scene.plan().integrator}, '
+           f'{_counted(result["substeps"], "substep")} in each period')
+    plain = result['step'] != 'compiled'
+    yield f'  the step is {result["step"]}{", some fifty times slower" if plain else ""}'
     yield '  largest stable step for this boat:'
     for name, limit in result['max_stable_step_s'].items():
         said = {None: 'no limit', 0.0: 'never stable'}.get(limit) or f'{limit:.4g} s'

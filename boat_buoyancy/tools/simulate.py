@@ -22,15 +22,17 @@ import argparse
 from pathlib import Path
 import re
 import sys
+from time import perf_counter
 
 import numpy as np
 
 from . import animate, command_line, plot
-from .recording import periods_of, record
-from ..physics import load_scene
+from ..physics import checks, load_scene
+from ..physics.compiled import notice
+from ..physics.stepping.integrators import INTEGRATORS
+from ..physics.stepping.march import march_by
 
 PROGRAM = 'buoyancy_simulate'
-COLUMNS = ('time', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw', 'vx', 'vy', 'vz', 'wx', 'wy', 'wz')
 THRUST = ('FX', 'FY', 'FZ', 'TX', 'TY', 'TZ')
 
 
@@ -42,6 +44,8 @@ def parser():
     option = arguments.add_argument
     option('--duration', metavar='S', type=float, required=True, help='simulated time, s')
     option('--csv', metavar='FILE', type=Path, help='table, one row per period from time 0')
+    option('--every', metavar='N', type=int, default=1,
+           help='every N-th row of the table only, from time 0 on')
     option('--plot', metavar='FILE.png', type=Path,
            help='heave, roll, pitch and probe depths over time (.png, .pdf or .svg)')
     option('--animate', metavar='FILE.gif', type=Path,
@@ -63,7 +67,10 @@ def protected(words):
 
 
 def check_outputs(arguments):
-    """Raise ValueError or OSError now for files that could not be written after the run."""
+    """Raise ValueError or OSError now for what could not be written after the run."""
+    checks.count('--every', arguments.every, at_least=1)
+    if arguments.every > 1 and arguments.csv is None:
+        raise ValueError('--every: it thins the table, and none is asked for; give --csv FILE')
     for name, path, endings in (('--plot', arguments.plot, plot.ENDINGS),
                                 ('--animate', arguments.animate, animate.ENDINGS)):
         if path is not None:
@@ -78,46 +85,38 @@ def check_outputs(arguments):
             path.unlink()
 
 
-def write_csv(path, recording):
-    """Write one row per period, every number with all its digits."""
-    names = [*COLUMNS, *(f'depth_{i}' for i in range(recording.depths.shape[1]))]
-    table = np.column_stack([recording.time, recording.position, recording.orientation,
-                             recording.velocity, recording.angular_velocity, recording.depths])
-    with path.open('w', encoding='utf-8', newline='') as file:
-        file.write(','.join(names) + '\n')
-        file.writelines(','.join(map(repr, row.tolist())) + '\n' for row in table)
+def summary(name, simulation, run, thrust, seconds):
+    """
+    Return what was run and what came of it, as lines.
 
-
-def summary(name, recording):
-    """Return what was run and what came of it, as lines."""
-    simulation, boat, sea = recording.simulation, recording.scene.boat, recording.scene.sea
-    periods = simulation.steps
+    ``name`` of the scene; ``simulation`` at its end and ``run``, its `Trajectory`; ``thrust`` (6)
+    that pushed it; ``seconds`` of wall time that the run took.
+    """
+    boat, sea, steps = simulation.boat, simulation.sea, simulation.steps * simulation.substeps
     # Rounded, and without the sign of a zero.
-    x, y, z = np.round(recording.position[-1], 3) + 0.0
-    angles = np.round(np.degrees(recording.roll_pitch_yaw), 3) + 0.0
-    heave = np.round(recording.position[:, 2], 3) + 0.0
-    speed = np.linalg.norm(recording.velocity, axis=1)
-    count, waves = len(boat.hull.positions), len(sea.waves)
-    yield (f'{name}: {recording.time[-1]:g} s at {simulation.rate:g} Hz, '
+    x, y, z = np.round(run.position[-1], 3) + 0.0
+    angles = np.round(np.degrees(run.roll_pitch_yaw), 3) + 0.0
+    heave = np.round(run.position[:, 2], 3) + 0.0
+    speed = np.linalg.norm(run.body_velocity, axis=1)
+    count, depths = len(boat.hull.positions), run.probe_depths
+    yield (f'{name}: {run.time[-1]:g} s at {simulation.rate:g} Hz, '
            f'{simulation.integrator}, {_count(simulation.substeps, "step")} per period')
     yield (f'boat     {boat.mass:g} kg, {_count(count, "probe")}, law {boat.hull.law}; '
-           f'{"flat water" if sea.is_flat else _count(waves, "wave")}, '
+           f'{"flat water" if sea.is_flat else _count(len(sea.waves), "wave")}, '
            f'current {np.hypot(*sea.current):.3g} m/s')
-    if recording.thrust.any():
-        yield (f'thrust   {_joined(recording.thrust[:3])} N, '
-               f'{_joined(recording.thrust[3:])} N m, body axes')
+    if any(thrust):
+        yield f'thrust   {_joined(thrust[:3])} N, {_joined(thrust[3:])} N m, body axes'
     yield from (f'warning: {sentence}' for sentence in simulation.warnings)
-    yield (f'end      x {x:.3f}, y {y:.3f}, z {z:.3f} m; draft {recording.depths[-1].max():.4f} m '
+    yield (f'end      x {x:.3f}, y {y:.3f}, z {z:.3f} m; draft {depths[-1].max():.4f} m '
            f'(deepest probe); speed {speed[-1]:.4f} m/s')
     yield 'attitude roll {:.3f}, pitch {:.3f}, yaw {:.3f} deg'.format(*angles[-1])
     yield (f'extremes roll {abs(angles[:, 0]).max():.3f}, pitch {abs(angles[:, 1]).max():.3f} deg '
            f'either way; heave {heave.min():.3f} to {heave.max():.3f} m; '
            f'speed {speed.max():.3f} m/s')
-    yield (f'probes   {recording.depths.min():.3f} to {recording.depths.max():.3f} m under water; '
-           f'at least {int((recording.depths > 0).sum(axis=1).min())} of {count} wet')
-    rate = periods * simulation.substeps / recording.seconds
-    yield (f'cost     {periods * simulation.substeps} steps in {recording.seconds:.3g} s: '
-           f'{rate:.4g} steps/s, {recording.time[-1] / recording.seconds:.3g} times real time')
+    yield (f'probes   {depths.min():.3f} to {depths.max():.3f} m under water; '
+           f'at least {int((depths > 0).sum(axis=1).min())} of {count} wet')
+    yield (f'cost     {steps} steps in {seconds:.3g} s: {steps / seconds:.4g} steps/s, '
+           f'{run.time[-1] / seconds:.3g} times real time')
 
 
 def _count(number, noun):
@@ -131,17 +130,23 @@ def _joined(numbers):
 def work(arguments):
     """Do what the arguments ask for; ValueError, OSError, SimulationError for bad input."""
     scene = load_scene(arguments.scene)
+    integrator = arguments.integrator or scene.integrator
+    if integrator in INTEGRATORS and (compiling := notice(march_by(integrator))):
+        print(f'{PROGRAM}: {compiling}', file=sys.stderr)
     simulation = scene.simulation(integrator=arguments.integrator, rate=arguments.rate,
                                   substeps=arguments.substeps)
-    periods = periods_of(arguments.duration, simulation.rate)
     check_outputs(arguments)
-    recording = record(scene, simulation, periods, arguments.thrust)
-    for line in summary(arguments.scene, recording):
+    start = perf_counter()
+    run = simulation.run(arguments.duration, arguments.thrust)
+    seconds = perf_counter() - start
+    for line in summary(arguments.scene, simulation, run, arguments.thrust, seconds):
         print(line)
-    for path, write in ((arguments.csv, write_csv), (arguments.plot, plot.write),
-                        (arguments.animate, animate.write)):
+    for path, write in (
+            (arguments.csv, run.every(arguments.every).to_csv),
+            (arguments.plot, lambda path: plot.write(path, run, simulation)),
+            (arguments.animate, lambda path: animate.write(path, run, simulation))):
         if path is not None:
-            write(path, recording)
+            write(path)
             print(f'wrote    {path}')
 
 

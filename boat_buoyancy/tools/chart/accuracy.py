@@ -21,12 +21,15 @@ import time
 import numpy as np
 
 from . import reference_solution
-from ...physics.boat import Boat, State
-from ...physics.integrators import METHODS
-from ...physics.simulation import Simulation, SimulationError
+from ...physics.boat.boat import Boat
+from ...physics.boat.state import center_of_mass_state, State
+from ...physics.stepping.integrators import INTEGRATORS
+from ...physics.stepping.simulation import Simulation, SimulationError
 
 # How often the motion is compared, at most: ten times in the shortest period that matters.
 SAMPLE_RATE = 40.0
+# One timing lasts about this long, in s; so many steps in one call that they alone count.
+SLICE, SUBSTEPS, MOST_PERIODS = 0.02, 100, 50
 
 
 @dataclass(frozen=True)
@@ -123,20 +126,14 @@ def simulated(run, integrator, rate, substeps=1):
 
     None when the motion leaves what numbers can hold.
     """
-    simulation = run.simulation(integrator, rate, substeps)
     stride = max(1, int(rate / SAMPLE_RATE))
-    times, states = [], []
+    periods = int(run.duration * rate * (1.0 + 1e-12))
     try:
-        for _ in range(int(run.duration * rate * (1.0 + 1e-12))):
-            simulation.step()
-            if simulation.steps % stride == 0:
-                times.append(simulation.time)
-                states.append(simulation.state)
+        done = run.simulation(integrator, rate, substeps).run(periods / rate).every(stride)
     except SimulationError:
         return None
-    return np.array(times), State(*(np.stack([getattr(state, name) for state in states])
-                                    for name in ('position', 'orientation', 'velocity',
-                                                 'angular_velocity')))
+    return done.time[1:], center_of_mass_state(
+        run.boat, done.position, done.orientation, done.body_velocity, done.angular_velocity)[1:]
 
 
 def measure(run, solution, integrator, rate, substeps=1):
@@ -152,24 +149,30 @@ def measure(run, solution, integrator, rate, substeps=1):
 
 def force_evaluations(integrator, rate, substeps=1):
     """Return how often an integrator computes the force per simulated second."""
-    return METHODS[integrator].evaluations * rate * substeps
+    return INTEGRATORS[integrator].evaluations * rate * substeps
 
 
-def step_seconds(runs, integrators, *, step=0.001, steps=200, repeats=5):
+def step_seconds(runs, integrators, *, step=0.001, repeats=5):
     """
-    Return the CPU time in s of one step, a dict by (key, integrator).
+    Return the CPU time in s of one step alone, a dict by (key, integrator).
 
     ``runs`` is a dict of `Run`s.  The best of interleaved repetitions: whatever else the machine
     does can only add.
     """
-    simulations = {(key, integrator): run.simulation(integrator, 1.0 / step)
+    simulations = {(key, integrator): run.simulation(integrator, 1.0 / (SUBSTEPS * step), SUBSTEPS)
                    for key, run in runs.items() for integrator in integrators}
+    periods = {key: min(MOST_PERIODS, max(1, int(SLICE / (SUBSTEPS * _seconds(simulation, 1)))))
+               for key, simulation in simulations.items()}
     best = dict.fromkeys(simulations, math.inf)
     for _ in range(repeats):
         for key, simulation in simulations.items():
-            simulation.reset()
-            began = time.process_time()
-            for _ in range(steps):
-                simulation.step()
-            best[key] = min(best[key], (time.process_time() - began) / steps)
+            best[key] = min(best[key], _seconds(simulation, periods[key]))
     return best
+
+
+def _seconds(simulation, periods):
+    """Return the CPU time in s of one of the steps of some periods from the start."""
+    simulation.reset()
+    began = time.process_time()
+    simulation.run(periods / simulation.rate)
+    return (time.process_time() - began) / (periods * simulation.substeps)

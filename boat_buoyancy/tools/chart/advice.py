@@ -20,8 +20,8 @@ import math
 from . import settings
 from .settings import Result, Setting, Trial
 from .stretch import stretches
-from ...physics.integrators import METHODS
-from ...physics.scene import scene_from_values
+from ...physics.scene.scene import scene_from_values
+from ...physics.stepping.integrators import INTEGRATORS
 
 # How fast an error may fall, more than it ever does: one order above the integrator's own, and a
 # factor besides.  What cannot meet the tolerance even so is not tried.
@@ -115,7 +115,7 @@ def _new_warnings(given, setting):
 
 def _is_hopeless(tried, setting, tolerance):
     """Return True when what was tried shows that this setting cannot meet the tolerance."""
-    order = METHODS[setting.integrator].order
+    order = INTEGRATORS[setting.integrator].order
     alike = [result for result in tried
              if (result.setting.integrator, result.setting.probes)
              == (setting.integrator, setting.probes)]
@@ -209,7 +209,7 @@ def _worth(advice):
     best = advice.best
     return (f'Error {best.error:.2g} m over {advice.duration:g} s of {advice.chosen_on}, '
             f'{advice.checked:.2g} m on {advice.checked_on}. Cost {best.evaluations:g} force '
-            f'evaluations and {1e3 * best.cpu:.2g} ms of CPU time per simulated second: '
+            f'evaluations and {1e6 * best.cpu:.3g} µs of CPU time per simulated second: '
             f'{_rounded(1.0 / best.cpu)} times real time on this machine.')
 
 

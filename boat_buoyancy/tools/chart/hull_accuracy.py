@@ -24,10 +24,10 @@ from .accuracy import difference, Run, simulated
 from .hull_clipping import submerged
 from .hull_shapes import BOX, PLACEMENTS, SHAPES
 from .table import Row
-from ...physics.boat import Boat, Damping
-from ...physics.hydrostatics import rest_state
-from ...physics.righting import righting_arms
-from ...physics.waves import Sea
+from ...physics.boat.boat import Boat, Damping
+from ...physics.hydrostatics.rest import rest_state
+from ...physics.hydrostatics.righting_arm import righting_arms
+from ...physics.sea.waves import Sea
 
 PART = 'model'
 DENSITY, GRAVITY = 1025.0, 9.81

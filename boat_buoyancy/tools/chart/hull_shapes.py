@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...physics.hull import Hull
+from ...physics.boat.hull import Hull
 
 PLACEMENTS = ('gauss', 'midpoint', 'corner')
 

@@ -25,7 +25,7 @@ import sys
 from .. import command_line
 from ..progress import Progress
 from ...physics import checks
-from ...physics.scene import load_scene
+from ...physics.scene.scene import load_scene
 
 PROGRAM = 'buoyancy_chart'
 DESCRIPTION = (

@@ -21,7 +21,7 @@ from . import settings
 from .settings import Setting, Trial
 from .stretch import stretches
 from .table import Row
-from ...physics.scene import load_scene
+from ...physics.scene.scene import load_scene
 
 PART = 'both'
 # The scene of the chart when none is given: the barge of `hull_shapes` in sea state 5.

@@ -16,8 +16,8 @@
 The reference solution: the same equations of motion, solved by an integrator that is none of ours.
 
 An adaptive eighth-order Runge-Kutta (SciPy's DOP853), restarted wherever the force has a kink:
-a high order is worth nothing across one.  Force and damping are those of `physics.forces`, so
-that what is left between it and a simulation is the error of the time step alone.
+a high order is worth nothing across one.  Forces and equations of motion are those of `physics`,
+so that what is left between it and a simulation is the error of the time step alone.
 """
 
 from collections.abc import Callable
@@ -27,13 +27,19 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
-from ...physics.backend import ONE_BOAT
-from ...physics.boat import State
-from ...physics.forces import evaluate, RAMP, System
-from ...physics.kick import accelerations
-from ...physics.laws import MIN_UPRIGHT
-from ...physics.quaternion import cross, multiply, normalise, to_body, to_world
+from ...physics.boat.boat import Boat
+from ...physics.boat.records import readable
+from ...physics.boat.state import Motion, State
+from ...physics.compiled import compile_now
+from ...physics.forces.damping import RAMP
+from ...physics.forces.load import load_at
+from ...physics.forces.probe_laws import MIN_UPRIGHT
+from ...physics.rotation import normalise, rotation_matrix, to_body
+from ...physics.sea.waves import Water
+from ...physics.stepping.rates import rate_of
+from ...physics.vectors import subtract, ZERO
 
+NO_THRUST, UPRIGHT = (ZERO, ZERO), (0.0, 0.0, 0.0, 1.0)
 # A kink counts as passed when its function is this far on the other side: round-off about zero,
 # of a boat at rest or of a speed that stays zero, is no crossing.
 PASSED = 1e-12
@@ -66,7 +72,6 @@ class Reference:
         return State(values[:3].T, orientation.T, values[7:10].T, values[10:].T)
 
 
-@dataclass(frozen=True)
 class Equations:
     """
     The equations of motion of one boat as y' = f(t, y), and where f has kinks.
@@ -74,27 +79,29 @@ class Equations:
     y (13,) is position, orientation, velocity in world axes and angular velocity in body axes.
     """
 
-    system: System
-    sea: object
+    def __init__(self, boat: Boat, sea: Water):
+        """Make boat and sea ready for the force functions, compiled where Numba is installed."""
+        self.boat, probes = boat.plain_records
+        self.law, self.height = boat.hull.law, boat.hull.height
+        self._depths = np.zeros(len(probes))
+        self._records = (boat.record[()], boat.probe_records, sea.record[()], sea.table)
+        self._load_at = compile_now(load_at, *self._records, ZERO, UPRIGHT, 0.0, self._depths)
+        if self._load_at is load_at:
+            self._records = (self.boat, probes, readable(sea.record), sea.table.tolist())
 
-    def _load(self, time, values):
-        values = values.tolist()
-        orientation = normalise(ONE_BOAT, values[3:7])
-        return values, orientation, evaluate(
-            self.system, self.sea, values[:3], orientation, time)
+    def _motion(self, time, values):
+        """Return the `Motion` of y, and the `Load` there; writes the probes' depths."""
+        x, y, z, qx, qy, qz, qw, *moving = values.tolist()
+        orientation = normalise((qx, qy, qz, qw))
+        velocity = to_body(rotation_matrix(orientation), moving[:3])
+        motion = Motion((x, y, z), orientation, velocity, tuple(moving[3:]))
+        return motion, self._load_at(*self._records, motion.position, motion.orientation,
+                                     float(time), self._depths)
 
     def derivative(self, time, values):
         """Return y' (13,)."""
-        (*_, vx, vy, vz, wx, wy, wz), orientation, load = self._load(time, values)
-        xx, yy, zz, xy, xz, yz = self.system.inertia
-        momentum = (xx * wx + xy * wy + xz * wz, xy * wx + yy * wy + yz * wz,
-                    xz * wx + yz * wy + zz * wz)
-        gyroscopic = cross(momentum, (wx, wy, wz))
-        linear, angular = accelerations(
-            self.system, load, (0.0, 0.0, 0.0, *gyroscopic),
-            to_body(load.rotation, (vx, vy, vz)), (wx, wy, wz))
-        turning = multiply(orientation, (0.5 * wx, 0.5 * wy, 0.5 * wz, 0.0))
-        return np.array([vx, vy, vz, *turning, *to_world(load.rotation, linear), *angular])
+        motion, load = self._motion(time, values)
+        return np.concatenate(rate_of(self.boat, load, NO_THRUST, motion))
 
     def kink_functions(self, time, values):
         """
@@ -103,17 +110,16 @@ class Equations:
         Each probe's entry, end of ramp and cap; for columns, the boat lying on its side and the
         heel from which it counts as lying; with quadratic drag, every reversal of speed.
         """
-        values, _, load = self._load(time, values)
-        height, wet = self.system.boat.hull.height, load.depth
-        attitude = []
-        if self.system.boat.hull.law == 'column':
-            upright = load.rotation[8]
+        motion, load = self._motion(time, values)
+        upright = rotation_matrix(motion.orientation)[2][2]
+        # The wet length in m, not clipped to the height that there is.
+        wet, height, attitude = self._depths, self.height, []
+        if self.law == 'column':
             wet = (wet - height * min(upright, 0.0)) / max(abs(upright), MIN_UPRIGHT)
             attitude = [upright, upright - MIN_UPRIGHT, upright + MIN_UPRIGHT]
         speeds = []
-        if self.system.quadratic is not None:
-            velocity = to_body(load.rotation, values[7:10])
-            speeds = [v - w for v, w in zip(velocity, load.water_velocity)] + values[10:]
+        if self.boat.has_quadratic:
+            speeds = [*subtract(motion.body_velocity, load.water), *motion.angular_velocity]
         return np.concatenate([wet, wet - RAMP * height, wet - height, attitude, speeds])
 
 
@@ -125,7 +131,7 @@ def solve(boat, sea, start, duration, *, tolerance=1e-12, restart=True):
     Other arguments: ``tolerance``, relative and in SI units absolute, of one solver step;
     ``restart`` False leaves the kinks to the step control, for hulls of very many probes.
     """
-    equations = Equations(System.of(boat, ONE_BOAT), sea)
+    equations = Equations(boat, sea)
     time = 0.0
     values = np.concatenate([start.position, start.orientation, start.velocity,
                              start.angular_velocity])

@@ -17,7 +17,7 @@
 from dataclasses import dataclass
 
 from .accuracy import Run
-from ...physics.scene import load_scene
+from ...physics.scene.scene import load_scene
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ import math
 from .accuracy import apart, boat_length, force_evaluations, measure, Run, step_seconds
 from .reference_solution import Reference
 from .stretch import Stretch
-from ...physics.scene import scene_from_values
+from ...physics.scene.scene import scene_from_values
 
 # For study only, never the best: euler is not among them.
 INTEGRATORS = ('leapfrog', 'rk4', 'implicit', 'symplectic_euler')

@@ -24,7 +24,7 @@ from ..plot_style import (figure, logarithmic, save, SERIES, SETTINGS, STYLES,
                           title_and_legend)
 
 COSTS = (('evaluations', 'force evaluations per simulated second', 1.0, '{:.0f}'),
-         ('cpu', 'CPU time per simulated second [ms]', 1e3, '{:.1f} ms'))
+         ('cpu', 'CPU time per simulated second [µs]', 1e6, '{:.2g} µs'))
 HULL_SERIES = (('column', 'gauss', 'columns at Gauss points'),
                ('column', 'midpoint', 'columns at midpoints'),
                ('column', 'corner', 'columns at corners'),
@@ -148,25 +148,25 @@ def draw_front(rows, name, path):
     rows = [row for row in rows if (row.part, row.scene) == (pareto_front.PART, name)
             and math.isfinite(row.error)]
     for integrator, (colour, marker, label) in STYLES.items():
-        points = [(1e3 * row.cpu, row.error) for row in rows if row.integrator == integrator]
+        points = [(1e6 * row.cpu, row.error) for row in rows if row.integrator == integrator]
         if points:
             axes.plot(*zip(*points), color=colour, marker=marker, linestyle='none', alpha=0.3,
                       markersize=4, label=label)
     best = sorted((row for row in rows if row.front), key=lambda row: row.cpu)
-    axes.plot([1e3 * row.cpu for row in best], [row.error for row in best], color='black',
+    axes.plot([1e6 * row.cpu for row in best], [row.error for row in best], color='black',
               linewidth=1.2, drawstyle='steps-post', label='nothing beats these')
     last = math.inf
     for row in best:
         colour, marker, _ = STYLES[row.integrator]
-        axes.plot([1e3 * row.cpu], [row.error], color=colour, marker=marker, markersize=7,
+        axes.plot([1e6 * row.cpu], [row.error], color=colour, marker=marker, markersize=7,
                   markeredgecolor='black')
         if row.error * LABEL_GAP < last:
             last = row.error
             probes = '' if row.placement == 'as given' else f', {row.placement} probes'
-            axes.annotate(f'{row.integrator} {row.rate:g} Hz{probes}', (1e3 * row.cpu, row.error),
+            axes.annotate(f'{row.integrator} {row.rate:g} Hz{probes}', (1e6 * row.cpu, row.error),
                           xytext=(-9, -9), textcoords='offset points', ha='right', va='center',
                           fontsize=8.5)
-    logarithmic(axes, 'CPU time per simulated second [ms]',
+    logarithmic(axes, 'CPU time per simulated second [µs]',
                 'error of the motion, hull and step together [m]')
     _front_limits(axes, best)
     faster = axes.secondary_xaxis('top', functions=(_reciprocal, _reciprocal))
@@ -176,13 +176,13 @@ def draw_front(rows, name, path):
     save(made, path)
 
 
-def _reciprocal(milliseconds):
-    """Return times real time for milliseconds per simulated second, and back."""
-    return 1e3 / (milliseconds + 1e-30)
+def _reciprocal(microseconds):
+    """Return times real time for microseconds per simulated second, and back."""
+    return 1e6 / (microseconds + 1e-30)
 
 
 def _front_limits(axes, best):
     """Leave room on the left for the labels."""
-    low, high = 1e3 * best[0].cpu, 1e3 * best[-1].cpu
+    low, high = 1e6 * best[0].cpu, 1e6 * best[-1].cpu
     axes.set_xlim(low / 8.0, high * 4.0)
     axes.set_ylim(best[-1].error / 3.0, min(best[0].error * 3.0, 3.0))

@@ -16,9 +16,11 @@
 
 import matplotlib
 
-from .speed import BASE_WAVES, Case, PROBES
-from .speed_report import microseconds
+from .speed import BASE_WAVES, Case, LARGE_FLEET, PROBES
+from .speed_report import microseconds, sizes
 from ..plot_style import figure, logarithmic, save, SERIES, SETTINGS, title_and_legend
+
+TICKS = [digit * 10.0 ** power for power in range(-2, 3) for digit in (1, 2, 5)]
 
 
 @matplotlib.rc_context(SETTINGS)
@@ -26,28 +28,39 @@ def draw(best, path):
     """Draw cost per boat-step over the size of the fleet, and over the number of waves."""
     made, panels = figure(9.0, 4.6, 1, 2, sharey=True)
     left, right = panels[0]
-    steps = [case for case in best if case.kind == 'step' and case.integrator == 'leapfrog'
-             and case.damped]
-    boats = sorted({case.boats for case in steps})
-    waves = sorted({case.waves for case in steps})
-    fleet = min(1000, boats[-1])
+    fleets, waves = sizes(best)
+    boats = [1, *fleets]
     for probes, (colour, marker) in zip(PROBES, SERIES):
-        _pair(left, best, [(Case('step', b, probes, BASE_WAVES), b) for b in boats], colour,
-              marker, f'{probes} probes')
+        _pair(left, best, [(Case('step', b, probes), b) for b in boats], colour, marker,
+              f'{probes} probes')
         # Flat water has no place on a logarithmic axis: it stands half a wave to the left.
-        _pair(right, best, [(Case('step', fleet, probes, w), max(w, 0.5)) for w in waves],
+        _pair(right, best, [(Case('step', LARGE_FLEET, probes, w), max(w, 0.5)) for w in waves],
               colour, marker, f'{probes} probes')
-    logarithmic(left, 'boats stepped together', 'CPU time per boat-step [µs]')
+        _others(left, best, probes, boats, colour, marker)
+    logarithmic(left, 'boats stepped together', 'time per boat-step [µs]')
     logarithmic(right, 'waves', '')
     left.set_title(f'Over boats ({BASE_WAVES} waves)')
-    right.set_title(f'Over waves ({fleet} boats)')
+    right.set_title(f'Over waves ({LARGE_FLEET} boats)')
     right.set_xticks([max(w, 0.5) for w in waves], [str(w) for w in waves])
     left.set_xticks(boats, [f'{b:,}'.replace(',', ' ') for b in boats])
+    low, high = left.get_ylim()
+    ticks = [tick for tick in TICKS if low <= tick <= high]
+    left.set_yticks(ticks, [f'{tick:g}' for tick in ticks])
     for axes in (left, right):
         axes.minorticks_off()
-    title_and_legend(made, 'CPU time of one step of one boat: fleets share the cost of a call, '
-                     'many waves cost less than their plain cosines', left)
+    title_and_legend(made, 'Time of one step of one boat: alone, in a run, and in fleets', left)
     save(made, path)
+
+
+def _others(axes, best, probes, boats, colour, marker):
+    """Draw hollow what one boat costs in a run, and fleets with all processors."""
+    first = marker == SERIES[0][1]
+    found = [('run', 1), *(('threads', b) for b in boats if b >= LARGE_FLEET)]
+    for place, (kind, count) in enumerate(found):
+        axes.plot([count], [microseconds(best, Case(kind, count, probes))], linestyle='none',
+                  marker=marker if kind == 'threads' else '_', color=colour,
+                  markerfacecolor='none', markersize=7,
+                  label={0: '1 boat in a run', 1: 'all threads'}.get(place) if first else None)
 
 
 def _pair(axes, best, cases, colour, marker, label):
@@ -58,4 +71,4 @@ def _pair(axes, best, cases, colour, marker, label):
               for case, x in cases]
     found = [(x, microseconds(best, limit)) for limit, x in limits if limit in best]
     axes.plot(*zip(*found), color=colour, linestyle='--', linewidth=1.0,
-              label='cosines alone' if marker == 'o' else None)
+              label="NumPy's cosines" if marker == SERIES[0][1] else None)

@@ -15,13 +15,23 @@
 """Speed in words: the tables, the ratios and the machine, as the text of ``speed.md``."""
 
 import csv
-from functools import partial
+from importlib.metadata import PackageNotFoundError, version
 import os
 import platform
 
 import numpy as np
 
-from .speed import BASE_PROBES, BASE_WAVES, Case, PROBES, ROUNDS
+from .speed import Case, LARGE_FLEET, PROBES, ROUNDS, RUN_STEPS
+
+# The columns of a table beside those of fleets: kind of case, and heading.
+ALONE = {'plain': '1 boat, plain Python', 'step': '1 boat', 'run': '1 boat, in a run'}
+
+
+# Measured once, beside the step in NumPy that release 0.1.0 had.
+PEERS = (
+    'A peer, from another run, in which one boat in four waves took the NumPy step of release '
+    '0.1.0 24.7 microseconds: Jolt Physics in WebAssembly, an exact box in flat water, took 6.6 '
+    'microseconds for one boat and 2.1 per boat for 1000.')
 
 
 def microseconds(best, case):
@@ -29,19 +39,15 @@ def microseconds(best, case):
     return 1e6 * best[case] / case.boats
 
 
-def slope(best, boats=1000, probes=BASE_PROBES):
-    """
-    Return [(waves x probes, microseconds over the line's)] of a straight line through the cost.
+def ratio(best, case, other):
+    """Return how many times the time per boat-step of ``other`` a case takes."""
+    return microseconds(best, case) / microseconds(best, other)
 
-    The line is fitted to the cost per boat-step over waves x probes, waves above 0.
-    """
-    points = [(case.waves * case.probes, microseconds(best, case)) for case in best
-              if case.kind == 'step' and case.boats == boats and case.waves
-              and case.integrator == 'leapfrog' and case.damped]
-    work, cost = np.array(points).T
-    # Relative weights: the line is to be as good at small cost as at large.
-    line = np.polynomial.Polynomial.fit(work, cost, 1, w=1.0 / cost)
-    return [(int(x), float(y / line(x))) for x, y in sorted(points)]
+
+def sizes(best):
+    """Return the fleets (boats), and the numbers of waves, that were measured."""
+    steps = [case for case in best if case.kind == 'step']
+    return (sorted({case.boats for case in steps} - {1}), sorted({case.waves for case in steps}))
 
 
 def machine():
@@ -53,67 +59,91 @@ def machine():
                          if line.startswith('model name')), name)
     except OSError:
         pass
+    try:
+        numba = f'Numba {version("numba")}'
+    except PackageNotFoundError:
+        numba = 'no Numba'
     return (f'{name}, {os.cpu_count()} cores, {platform.system()}, '
-            f'Python {platform.python_version()}, NumPy {np.__version__}')
+            f'Python {platform.python_version()}, NumPy {np.__version__}, {numba}')
 
 
 def text(best, rounds=ROUNDS):
     """Return ``speed.md``."""
-    steps = [case for case in best if case.kind == 'step' and case.integrator == 'leapfrog'
-             and case.damped]
-    boats = sorted({case.boats for case in steps})
-    waves = sorted({case.waves for case in steps})
+    fleets, waves = sizes(best)
+    threaded = [boats for boats in fleets if boats >= LARGE_FLEET]
     lines = [
         '# The speed of the step', '',
-        'CPU time per boat-step in microseconds, leapfrog, default damping, one thread; beside '
-        'it in brackets the limit that the trigonometry alone sets: as many `numpy.cos` and '
-        '`numpy.sin` in double, in the same run.  Best of '
+        'Time per boat-step in microseconds, leapfrog, default damping. Fleets are stepped by one '
+        'thread; in brackets the same water by `numpy.cos` and `numpy.sin` alone, of as many '
+        'angles in double. In plain Python a step is what it is where Numba is not installed. In '
+        f'a run is a step of `run` over {RUN_STEPS}, its trajectory included. Of threads the time '
+        'of the clock is told, of all else that of the CPU. Best of '
         f'{rounds} interleaved repetitions.', '', f'Machine: {machine()}.', '',
         'To repeat it, on a quiet machine: `buoyancy_chart --speed --out doc`.', '']
+    heads = ['waves', *ALONE.values(), *(f'{boats} boats' for boats in fleets),
+             *(f'{boats} boats, all threads' for boats in threaded)]
     for probes in PROBES:
-        lines += [f'## {probes} probes', '',
-                  '| waves | ' + ' | '.join(f'{b} boat{"s" if b > 1 else ""}' for b in boats)
-                  + ' |', '|---' * (len(boats) + 1) + '|']
+        lines += [f'## {probes} probes', '', _line(heads), '|---' * len(heads) + '|']
         for wave in waves:
-            cells = [_cell(best, b, probes, wave) for b in boats]
-            lines.append(f'| {wave} | ' + ' | '.join(cells) + ' |')
+            alone = [f'{microseconds(best, Case(kind, 1, probes, wave)):.3g}' for kind in ALONE]
+            together = [f'{microseconds(best, Case("threads", boats, probes, wave)):.3g}'
+                        for boats in threaded]
+            lines.append(_line([wave, *alone, *(
+                _beside_limit(best, Case('step', boats, probes, wave)) for boats in fleets),
+                *together]))
         lines.append('')
-    lines += ['## Fleets', '', *_fleets(best), '', *_integrators(best), '']
-    return '\n'.join(lines)
+    return '\n'.join([*lines, '## Ratios', '', *_ratios(best), '', PEERS, '', *_integrators(best),
+                      ''])
 
 
-def _cell(best, boats, probes, waves):
-    value = f'{microseconds(best, Case("step", boats, probes, waves)):.3g}'
-    limit = Case('trigonometry', boats, probes, waves)
-    return f'{value} ({microseconds(best, limit):.3g})' if limit in best else value
+def _line(cells):
+    return '| ' + ' | '.join(map(str, cells)) + ' |'
 
 
-def _fleets(best):
-    """Return the lines on what a fleet saves, and how its cost grows with waves times probes."""
-    base = partial(Case, probes=BASE_PROBES, waves=BASE_WAVES)
-    alone, many, limit = (microseconds(best, case) for case in (
-        base('step', 1), base('step', 1000), base('trigonometry', 1000)))
-    yield (f'With {BASE_PROBES} probes and {BASE_WAVES} waves, one boat alone costs '
-           f'{alone / many:.3g} times what one of 1000 does, and that one '
-           f'{many / limit:.3g} times its trigonometry.')
+def _limit(case):
+    """Return the trigonometry of a case."""
+    return Case('trigonometry', case.boats, case.probes, case.waves)
+
+
+def _beside_limit(best, case):
+    cell = f'{microseconds(best, case):.3g}'
+    limit = _limit(case)
+    return f'{cell} ({microseconds(best, limit):.3g})' if limit in best else cell
+
+
+def _ratios(best):
+    """Yield the lines on what compiling, runs, fleets and threads save."""
+    fleets, waves = sizes(best)
+    one, many, largest = Case('step'), Case('step', LARGE_FLEET), fleets[-1]
+    yield f'With {one.probes} probes and {one.waves} waves:'
     yield ''
-    parts = [part for _, part in slope(best)]
-    yield ('Fitted by a straight line over waves x probes, the cost per boat of 1000 lies between '
-           f'{min(parts):.2f} and {max(parts):.2f} times that line in all {len(parts)} cases with '
-           'waves.')
+    yield ('- one boat alone costs '
+           f'{ratio(best, one, many):.3g} times what one of {LARGE_FLEET} does, '
+           f'and {ratio(best, one, Case("run")):.3g} times a step of a run;')
+    yield f'- plain Python costs {ratio(best, Case("plain"), one):.3g} times that one boat;'
+    yield (f'- one of {LARGE_FLEET} boats costs {ratio(best, many, _limit(many)):.3g} times its '
+           'trigonometry by NumPy'
+           + ''.join(f', with {count} waves {ratio(best, case, _limit(case)):.3g} times'
+                     for count in waves[-1:]
+                     for case in [Case('step', LARGE_FLEET, waves=count)]) + ';')
+    yield (f'- {largest} boats take one thread '
+           f'{ratio(best, Case("step", largest), Case("threads", largest)):.3g} times as long as '
+           'all processors.')
 
 
 def _integrators(best):
-    """Return the table of integrators and damping."""
-    lines = ['## Integrators and damping', '', 'Microseconds per boat-step.', '',
-             '| integrator | probe damping | 1 boat | 1000 boats |', '|---|---|---|---|']
-    kinds = {(case.integrator, case.damped) for case in best if case.kind == 'step'}
-    for integrator, damped in sorted(kinds, key=lambda kind: microseconds(best, Case(
-            'step', 1, BASE_PROBES, BASE_WAVES, *kind))):
-        one, many = (microseconds(best, Case('step', count, BASE_PROBES, BASE_WAVES,
-                                             integrator, damped)) for count in (1, 1000))
-        lines.append(f'| {integrator} | {"yes" if damped else "no"} | {one:.3g} | {many:.3g} |')
-    return lines
+    """Yield the table of integrators and damping."""
+    yield from ('## Integrators and damping', '', 'Microseconds per boat-step.', '')
+    kinds = [('plain', 1), ('run', 1), ('step', LARGE_FLEET)]
+    yield _line(['integrator', 'probe damping', ALONE['plain'], ALONE['run'],
+                 f'{LARGE_FLEET} boats'])
+    yield '|---' * 5 + '|'
+    found = {(case.integrator, case.damped) for case in best if case.kind == 'run'}
+    rows = [(integrator, damped, *(microseconds(best, Case(
+        kind, boats, integrator=integrator, damped=damped)) for kind, boats in kinds))
+        for integrator, damped in found]
+    for integrator, damped, *times in sorted(rows, key=lambda row: row[-1]):
+        yield _line([integrator, 'yes' if damped else 'no', *(f'{t:.3g}' for t in times)])
 
 
 def write_table(path, best):

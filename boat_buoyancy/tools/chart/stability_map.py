@@ -21,61 +21,53 @@ import sys
 import numpy as np
 
 from ...physics import load_scene
-from ...physics.boat import Boat, Damping, State
-from ...physics.equilibrium import Equilibrium, modes
-from ...physics.hull import Hull
-from ...physics.simulation import Simulation, SimulationError
-from ...physics.step_limits import combined_step
-from ...physics.waves import Sea
+from ...physics.boat.boat import Boat, Damping
+from ...physics.boat.hull import Hull
+from ...physics.boat.state import State
+from ...physics.hydrostatics.natural_modes import modes
+from ...physics.sea.waves import Sea
+from ...physics.step_size.balance import at_rest, drifting
+from ...physics.step_size.limits import largest_stable_step, step_jacobian
+from ...physics.stepping.simulation import Simulation, SimulationError
 
 # A boat that bobs at 1 rad/s: a step of h s is then omega h = h.
 MASS, GRAVITY = 1.0, 9.81
 # A nudge that meets no kink of the spring while it grows a thousandfold.
 NUDGE, GROWN = 1e-5, 1e3
+# Points of a predicted boundary, and to what part of it they are known.
+BOUNDARY, DRAWN = 61, 1e-3
+# Their places in a `step_jacobian`.
+HEAVE, HEAVE_SPEED = 0, 5
 RATES = (30.0, 60.0, 100.0)
 
 
 def bobbing_boat(ratio=0.0, retention=1.0):
-    """Return a boat with one probe, omega = 1 rad/s and that damping ratio in heave alone."""
+    """
+    Return a boat with one probe and omega = 1 rad/s, damped in heave alone.
+
+    ``ratio`` of its damping to critical; ``retention``, in water and in air.
+    """
     hull = Hull([[0.0, 0.0, 0.0]], [4.0 * MASS * GRAVITY], [4.0 * GRAVITY])
-    keep = {name: [retention if name == 'linear_retention' else 1.0] for name in (
-        'linear_retention', 'angular_retention', 'air_linear_retention',
-        'air_angular_retention')}
-    heave = [0.0, 0.0, 2.0 * ratio * MASS, 0.0, 0.0, 0.0]
-    return Boat(MASS, hull, [1.0, 1.0, 1.0], Damping(linear=heave, **keep), gravity=GRAVITY)
-
-
-def disturbance(boat, integrator, h, steps):
-    """
-    Return heave (n,) m and its speed (n,) m/s after a nudge, run with a step of h s.
-
-    n is steps + 1, or less when it has grown a thousandfold or the guard has stopped it.
-    """
-    simulation = Simulation(boat, Sea(gravity=GRAVITY),
-                            State((0.0, 0.0, NUDGE - GRAVITY), velocity=(0.0, 0.0, NUDGE)),
-                            rate=1.0 / h, integrator=integrator)
-    heave, speed = [], []
-    for _ in range(steps + 1):
-        motion = simulation.motion
-        heave.append(motion.position[2] + GRAVITY)
-        # The boat stays level: what is up in its own axes is up.
-        speed.append(motion.velocity[2])
-        if abs(heave[-1]) + abs(speed[-1]) > GROWN * NUDGE:
-            break
-        try:
-            simulation.step()
-        except SimulationError:
-            break
-    return np.array(heave), np.array(speed)
+    keep = [1.0, 1.0, retention]
+    damping = Damping(keep, [1.0], keep, [1.0],
+                      linear=[0.0, 0.0, 2.0 * ratio * MASS, 0.0, 0.0, 0.0])
+    return Boat(MASS, hull, [1.0, 1.0, 1.0], damping, gravity=GRAVITY)
 
 
 def stays_calm(boat, integrator, h, steps):
     """Return whether a small heave does not grow from the first third of a run to the last."""
-    size = np.hypot(*disturbance(boat, integrator, h, steps))
-    if len(size) <= steps:
+    simulation = Simulation(boat, Sea(gravity=GRAVITY),
+                            State((0.0, 0.0, NUDGE - GRAVITY), velocity=(0.0, 0.0, NUDGE)),
+                            rate=1.0 / h, integrator=integrator)
+    try:
+        run = simulation.run(steps * h)
+    except SimulationError:
         return False
+    # The boat stays level: what is up in its own axes is up.
+    size = np.hypot(run.position[:, 2] + GRAVITY, run.body_velocity[:, 2])
     third = steps // 3
-    return bool(size[-third:].max() <= size[:third].max() * (1.0 + 1e-9))
+    return bool(size.max() < GROWN * NUDGE
+                and size[-third:].max() <= size[:third].max() * (1.0 + 1e-9))
 
 
 @dataclass(frozen=True)
@@ -103,14 +95,14 @@ def measure_map(integrator, angles, ratios, steps):
             # A slow bob needs more steps to show in which direction it goes.
             long_enough = max(steps, round(2.5 * 2.0 * np.pi / angle))
             calm[row, column] = stays_calm(boat, integrator, angle, long_enough)
-    fine = np.linspace(0.0, ratios[-1] + (ratios[-1] - ratios[-2]) / 2.0, 81)
+    fine = np.linspace(0.0, ratios[-1] + (ratios[-1] - ratios[-2]) / 2.0, BOUNDARY)
     return StabilityMap(angles, ratios, calm, np.array([
         (ratio, predicted_angle(bobbing_boat(ratio), integrator)) for ratio in fine]))
 
 
 def predicted_angle(boat, integrator):
     """Return the predicted omega h from which a `bobbing_boat` shakes, infinite without limit."""
-    step = combined_step(Equilibrium.of(boat), integrator)
+    step = largest_stable_step(at_rest(boat), integrator, precision=DRAWN)
     return np.inf if step is None else step
 
 
@@ -118,26 +110,16 @@ def loop_growth(angle, drag):
     """
     Return the factor per step by which the plain game loop multiplies a small heave.
 
-    ``angle`` omega h of the spring, 0 for a boat in free flight; ``drag`` drag times dt.
-    Measured from the first steps of the shipped ``symplectic_euler``: what repeats itself as
-    z(n + 2) = a z(n + 1) + b z(n) grows by the larger root of r^2 = a r + b (Prony).
+    ``angle`` omega h of the spring, 0 for a boat in free flight, whose speed it multiplies;
+    ``drag`` drag times dt.  Of one step of the shipped ``symplectic_euler``.
     """
     if angle == 0.0:
-        return abs(_speed_kept(drag))
+        _, air = drifting(bobbing_boat(retention=np.exp(-drag)))
+        return abs(step_jacobian(air, 'symplectic_euler', 1.0)[HEAVE_SPEED, HEAVE_SPEED])
     boat = bobbing_boat(retention=np.exp(-drag / angle))
-    heave, _ = disturbance(boat, 'symplectic_euler', angle, 8)
-    (a, b), *_ = np.linalg.lstsq(np.stack([heave[1:-1], heave[:-2]], axis=1), heave[2:])
-    return float(np.abs(np.roots([1.0, -a, -b])).max())
-
-
-def _speed_kept(drag):
-    """Return by what one step of the plain game loop multiplies a speed in free flight."""
-    hull = Hull([[0.0, 0.0, 0.0]], [MASS * GRAVITY], [1.0])
-    boat = Boat(MASS, hull, [1.0] * 3, Damping([1.0], [1.0], [np.exp(-drag)], [1.0]))
-    simulation = Simulation(boat, Sea(), State((0.0, 0.0, 1e6), velocity=(1.0, 0.0, 0.0)),
-                            rate=1.0, integrator='symplectic_euler')
-    simulation.step()
-    return float(simulation.state.velocity[0])
+    step = step_jacobian(at_rest(boat), 'symplectic_euler', angle)
+    heave = np.ix_([HEAVE, HEAVE_SPEED], [HEAVE, HEAVE_SPEED])
+    return float(np.abs(np.linalg.eigvals(step[heave])).max())
 
 
 def predicted_loop_growth(angle, drag):

@@ -20,10 +20,10 @@ import math
 import numpy as np
 
 from .accuracy import Run
-from ...physics.boat import State
-from ...physics.hydrostatics import draft, floats, rest_state
-from ...physics.quaternion import from_roll_pitch_yaw, to_roll_pitch_yaw
-from ...physics.scene import scene_from_values
+from ...physics.boat.state import State
+from ...physics.hydrostatics.rest import draft, floats, rest_state
+from ...physics.rotation import from_roll_pitch_yaw, to_roll_pitch_yaw
+from ...physics.scene.scene import scene_from_values
 
 # Long enough for the root mean square of an irregular sea to mean something.
 WAVE_PERIODS = 10

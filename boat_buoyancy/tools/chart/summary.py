@@ -47,7 +47,7 @@ def _stepping(rows):
     for scene in (*SCENES, SWELL):
         cpu = dict(time_stepping.ranking(rows, scene.name, scene.tolerance, 'cpu'))
         ranked = ', '.join(
-            f'{name} {cost:.0f} ({1e3 * cpu[name]:.2g} ms)' if math.isfinite(cost)
+            f'{name} {cost:.0f} ({1e6 * cpu[name]:.3g} µs)' if math.isfinite(cost)
             else f'{name} not at all' for name, cost in time_stepping.ranking(
                 rows, scene.name, scene.tolerance))
         yield f'  {scene.name} to {1e3 * scene.tolerance:g} mm: {ranked}'
@@ -88,5 +88,5 @@ def _fronts(rows):
         for row in best:
             probes = ('' if row.placement == 'as given' else
                       ', hull.probes: [{}, {}]'.format(*row.placement.split('x')))
-            yield (f'  {row.error:.2g} m, {1e3 * row.cpu:.2g} ms: integrator: {row.integrator}, '
+            yield (f'  {row.error:.2g} m, {1e6 * row.cpu:.3g} µs: integrator: {row.integrator}, '
                    f'rate: {float(row.rate)}, substeps: 1{probes}')

@@ -1,0 +1,189 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What never changes of a boat: mass, inertia, hull and damping."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .hull import Hull
+from .records import boat_record, probe_records, readable
+from .. import checks
+
+
+@dataclass(frozen=True)
+class Damping:
+    """
+    Everything that takes speed away, in body axes; see the parameter table for meaning.
+
+    Main arguments: ``linear_retention`` and ``angular_retention`` (3,), part of the velocity
+    kept after one second in water; ``air_...``, the same in air; ``probe`` N s/m over all probes.
+    Other arguments: ``linear`` (6,) N/(m/s) and N m/(rad/s), ``quadratic`` (6,) N/(m/s)^2 and
+    N m/(rad/s)^2, in water only.
+    """
+
+    linear_retention: ArrayLike = (0.95,)
+    angular_retention: ArrayLike = (0.9,)
+    air_linear_retention: ArrayLike = (0.999,)
+    air_angular_retention: ArrayLike = (0.999,)
+    probe: float = 0.0
+    linear: ArrayLike = (0.0,) * 6
+    quadratic: ArrayLike = (0.0,) * 6
+
+    def __post_init__(self):
+        """Store checked, read-only arrays; a single retention stands for all three axes."""
+        for name in ('linear_retention', 'angular_retention',
+                     'air_linear_retention', 'air_angular_retention'):
+            values = checks.vector(f'damping.{name}', getattr(self, name), 1, 3,
+                                   above=0.0, at_most=1.0)
+            object.__setattr__(self, name, np.broadcast_to(values, (3,)))
+        for name in ('linear', 'quadratic'):
+            values = checks.vector(f'damping.{name}', getattr(self, name), 6, at_least=0.0)
+            object.__setattr__(self, name, values)
+        object.__setattr__(self, 'probe',
+                           checks.number('damping.probe', self.probe, at_least=0.0))
+
+    @cached_property
+    def rates(self) -> np.ndarray:
+        """Return (2, 6) 1/s, -ln(retention): in water and in air; linear, then angular."""
+        water = np.concatenate([self.linear_retention, self.angular_retention])
+        air = np.concatenate([self.air_linear_retention, self.air_angular_retention])
+        return -np.log(np.stack([water, air]))
+
+
+@dataclass(frozen=True, eq=False)
+class Boat:
+    """
+    A rigid boat; one is equal to itself only.
+
+    Main arguments: ``mass`` kg; ``hull`` a `Hull`; ``inertia`` (3, 3) kg m^2 about the centre of
+    mass, off-diagonals -integral(xy dm) as in URDF; ``damping`` a `Damping`.
+    Other arguments: ``center_of_mass`` (3,) m in the body frame; ``gravity`` m/s^2.
+    """
+
+    mass: float
+    hull: Hull
+    inertia: ArrayLike
+    damping: Damping = field(default_factory=Damping)
+    center_of_mass: ArrayLike = (0.0, 0.0, 0.0)
+    gravity: float = 9.81
+
+    def __post_init__(self):
+        """Store checked, read-only arrays."""
+        object.__setattr__(self, 'mass', checks.number('boat.mass', self.mass, above=0.0))
+        object.__setattr__(self, 'gravity', checks.number('gravity', self.gravity, above=0.0))
+        object.__setattr__(self, 'center_of_mass', checks.vector(
+            'boat.center_of_mass', self.center_of_mass, 3))
+        object.__setattr__(self, 'inertia', checked_inertia(self.inertia))
+
+    @property
+    def weight(self) -> float:
+        """Return m g in N."""
+        return self.mass * self.gravity
+
+    @property
+    def floatiness(self) -> float:
+        """Return the buoyancy budget over the weight, F_max / (m g)."""
+        return float(self.hull.max_force.sum() / self.weight)
+
+    @cached_property
+    def probe_offsets(self) -> np.ndarray:
+        """Return (n, 3) m, the probes from the centre of mass, in body axes."""
+        return self.hull.positions - self.center_of_mass
+
+    @cached_property
+    def record(self) -> np.ndarray:
+        """Return the boat as the compiled step reads it, see `records`."""
+        return boat_record(self)
+
+    @cached_property
+    def probe_records(self) -> np.ndarray:
+        """Return the probes as the compiled step reads them, see `records`."""
+        return probe_records(self)
+
+    @cached_property
+    def plain_records(self) -> tuple:
+        """Return boat and probes as the step in plain Python reads them."""
+        return readable(self.record), readable(self.probe_records)
+
+    @cached_property
+    def principal(self) -> tuple[np.ndarray, np.ndarray]:
+        """
+        Return the principal moments (3,) in rising order and their axes, columns of (3, 3).
+
+        The axes are right-handed, and exact where they are those of the body.
+        """
+        moments = np.diag(self.inertia)
+        if (self.inertia - np.diag(moments)).any():
+            moments, axes = np.linalg.eigh(self.inertia)
+        else:
+            order = np.argsort(moments, kind='stable')
+            moments, axes = moments[order], np.eye(3)[:, order]
+        if np.linalg.det(axes) < 0:
+            axes = axes * [1.0, 1.0, -1.0]
+        return moments, axes
+
+    @cached_property
+    def mass_matrix(self) -> np.ndarray:
+        """Return (6, 6), diag(m, m, m, I)."""
+        matrix = np.zeros((6, 6))
+        matrix[:3, :3] = self.mass * np.eye(3)
+        matrix[3:, 3:] = self.inertia
+        return matrix
+
+    @cached_property
+    def retention_damping(self) -> np.ndarray:
+        """
+        Return (2, 6, 6), the damping matrix of retention in water and in air, body axes.
+
+        Force -m d_i u_i and torque -I^1/2 diag(d) I^1/2 w: each axis decays at its own rate and
+        no torque ever feeds energy in, however the inertia is turned.
+        """
+        moments, axes = self.principal
+        root = axes @ np.diag(np.sqrt(moments)) @ axes.T
+        matrices = np.zeros((2, 6, 6))
+        for matrix, rates in zip(matrices, self.damping.rates):
+            matrix[:3, :3] = self.mass * np.diag(rates[:3])
+            matrix[3:, 3:] = root @ np.diag(rates[3:]) @ root
+        return matrices
+
+
+def checked_inertia(inertia):
+    """
+    Return an inertia tensor (3, 3), checked to be one that a rigid body can have.
+
+    ``inertia`` is (3, 3), or [Ixx, Iyy, Izz] or [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] in kg m^2.
+    ValueError when it is not positive definite or breaks the triangle rule.
+    """
+    values = np.asarray(inertia)
+    if values.shape != (3, 3):
+        xx, yy, zz, *rest = checks.vector('boat.inertia', inertia, 3, 6)
+        xy, xz, yz = rest or (0.0, 0.0, 0.0)
+        values = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    values = np.array(values, float)
+    if not np.isfinite(values).all() or not np.array_equal(values, values.T):
+        raise ValueError('boat.inertia: expected a finite symmetric tensor, '
+                         f'got {values.tolist()}')
+    moments = np.linalg.eigvalsh(values)
+    if not moments[0] > 1e-12 * moments[2]:
+        raise ValueError('boat.inertia: expected a positive definite tensor, got principal '
+                         f'moments {moments.tolist()} kg m^2')
+    if moments[0] + moments[1] < moments[2] * (1 - 1e-6):
+        raise ValueError('boat.inertia: expected no principal moment above the sum of the other '
+                         f'two, got {moments.tolist()} kg m^2: no body has that inertia')
+    values.setflags(write=False)
+    return values

@@ -1,0 +1,92 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The hull: probes that sample the water and share the buoyancy budget."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import checks
+
+# Probe laws; the step knows them by their place in this list.
+LAWS = ('spring', 'soft', 'column')
+
+
+@dataclass(frozen=True)
+class Hull:
+    """
+    The probes of a hull, in body axes.
+
+    Main arguments: ``positions`` (n, 3) m; ``max_force`` (n,) N, what each probe gives at most;
+    ``height`` (n,) m, the depth at which it does.
+    Other arguments: ``law`` is ``spring`` or ``soft`` (a point) or ``column`` (the probe is the
+    bottom of a column of hull of that height).
+    """
+
+    positions: ArrayLike
+    max_force: ArrayLike
+    height: ArrayLike
+    law: str = 'spring'
+
+    def __post_init__(self):
+        """Store checked, read-only arrays."""
+        positions = np.array(self.positions, float).reshape(-1, 3)
+        count = len(positions)
+        if count == 0:
+            raise ValueError('probes.positions: expected at least one probe, got none')
+        if not np.isfinite(positions).all():
+            raise ValueError('probes.positions: expected finite numbers, '
+                             f'got {positions.tolist()}')
+        positions.setflags(write=False)
+        object.__setattr__(self, 'positions', positions)
+        for name in ('max_force', 'height'):
+            values = np.broadcast_to(np.asarray(getattr(self, name), float), (count,))
+            object.__setattr__(self, name, checks.vector(name, values, count, at_least=0.0))
+        if not self.max_force.sum() > 0:
+            raise ValueError('probes.weights: expected a sum above 0, got 0')
+        if not (self.height > 0).all():
+            raise ValueError('probes.stiffness: expected a finite height above 0 for every '
+                             f'probe, got heights {self.height.tolist()}')
+        if self.law not in LAWS:
+            raise ValueError(f'probes.law: expected one of {", ".join(LAWS)}, got {self.law!r}')
+
+    @cached_property
+    def share(self) -> np.ndarray:
+        """Return (n,), each probe's part of the budget: weight over sum of weights."""
+        return self.max_force / self.max_force.sum()
+
+    @cached_property
+    def stiffness(self) -> np.ndarray:
+        """Return (n,) N/m, the slope of each probe's force at the surface."""
+        return self.max_force / self.height
+
+
+def probe_hull(positions, weights, *, weight, floatiness, stiffness, law):
+    """
+    Return the idea's hull: a buoyancy budget shared out by weight.
+
+    Main arguments: ``positions`` (n, 3) m; ``weights`` (n,) relative importance; ``weight`` m g
+    of the boat in N; ``floatiness`` F_max/(m g); ``stiffness`` 1/m, share of a probe's force
+    per metre of depth; ``law`` as in `Hull`.
+    """
+    positions = np.array(positions, float).reshape(-1, 3)
+    weights = checks.vector('probes.weights', weights, len(positions), at_least=0.0)
+    if not weights.sum() > 0:
+        raise ValueError(f'probes.weights: expected a sum above 0, got {weights.tolist()}')
+    budget = weight * floatiness
+    return Hull(positions, budget * weights / weights.sum(),
+                np.full(len(positions), 1.0 / stiffness), law)

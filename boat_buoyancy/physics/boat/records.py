@@ -1,0 +1,86 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+A boat as the step reads it: records with named fields, all from the centre of mass, body axes.
+
+Compiled code reads structured arrays, whose names cost nothing; plain Python reads named tuples
+of floats, as the fields of NumPy's records cost it a microsecond each.
+"""
+
+from collections import namedtuple
+from functools import lru_cache
+
+import numpy as np
+
+from .hull import LAWS
+
+# Mass kg and weight N; symmetric matrices are xx, yy, zz, xy, xz, yz.  ``moments`` in rising
+# order, their axes the unit vectors ``axis_1`` to ``axis_3``.  Damping: ``probe_damping`` N s/m
+# over all probes; retention in water and in air, force N/(m/s) on the diagonal and torque
+# N m/(rad/s) as a matrix; ``linear`` and ``quadratic`` as `Damping`.
+BOAT = np.dtype([
+    ('mass', 'f8'), ('weight', 'f8'), ('center_of_mass', 'f8', 3), ('inertia', 'f8', 6),
+    ('moments', 'f8', 3), ('axis_1', 'f8', 3), ('axis_2', 'f8', 3), ('axis_3', 'f8', 3),
+    ('law', 'i8'), ('probe_damping', 'f8'),
+    ('water_retention', 'f8', 3), ('water_spin_retention', 'f8', 6),
+    ('air_retention', 'f8', 3), ('air_spin_retention', 'f8', 6),
+    ('linear', 'f8', 6), ('quadratic', 'f8', 6), ('has_quadratic', 'i8')])
+# Place m, most lift N, depth m at which it is reached, and share of the budget.
+PROBE = np.dtype([('x', 'f8'), ('y', 'f8'), ('z', 'f8'), ('max_force', 'f8'), ('height', 'f8'),
+                  ('share', 'f8')])
+
+SYMMETRIC = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+
+
+def boat_record(boat):
+    """Return a `Boat` as a record of `BOAT`."""
+    water, air = boat.retention_damping
+    moments, axes = boat.principal
+    quadratic = boat.damping.quadratic
+    return np.array((
+        boat.mass, boat.weight, boat.center_of_mass, symmetric(boat.inertia),
+        moments, *axes.T, LAWS.index(boat.hull.law), boat.damping.probe,
+        np.diag(water)[:3], symmetric(water[3:, 3:]), np.diag(air)[:3], symmetric(air[3:, 3:]),
+        boat.damping.linear, quadratic, quadratic.any()), BOAT)
+
+
+def probe_records(boat):
+    """Return the probes of a `Boat` as records (n,) of `PROBE`."""
+    hull = boat.hull
+    records = np.empty(len(hull.share), PROBE)
+    records['x'], records['y'], records['z'] = boat.probe_offsets.T
+    records['max_force'], records['height'], records['share'] = (
+        hull.max_force, hull.height, hull.share)
+    return records
+
+
+def symmetric(matrix):
+    """Return the six numbers of a symmetric matrix (3, 3)."""
+    return [matrix[place] for place in SYMMETRIC]
+
+
+def readable(records):
+    """Return records (...) as nested lists of named tuples of floats, for plain Python."""
+    if not records.dtype.names:
+        return tuple(records.tolist()) if records.ndim else records.item()
+    if records.ndim:
+        return [readable(part) for part in records]
+    row = _row(records.dtype.names)
+    return row(*(readable(records[name]) for name in row._fields))
+
+
+@lru_cache(maxsize=None)
+def _row(names):
+    return namedtuple('Record', names)

@@ -1,0 +1,86 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+All forces on a boat at one place and time: what a kick of the integrators needs to know.
+
+Everything is in body axes about the centre of mass.
+"""
+
+from typing import NamedTuple
+
+from .buoyancy import buoyancy
+from .damping import (body_damping, DampingMatrix, no_damping, probe_damping, ramped, with_body,
+                      with_point)
+from .gravity import gravity
+from .probe_laws import wetting
+from ..compiled import compiled
+from ..rotation import rotation_matrix, to_body, to_world
+from ..sea.fading import current, ramp
+from ..sea.waves import surface
+from ..vectors import add, add_scaled, cross, multiply, scale, ZERO
+
+
+class Load(NamedTuple):
+    """
+    Force and damping of one place and time.
+
+    ``force`` N and ``torque`` N m of buoyancy, gravity and the pull of moving water; ``damping``
+    a `DampingMatrix`; ``wetness`` 0 to 1, the probes' weighted mean; ``water`` (3) m/s, the
+    probes' weighted mean velocity of the water.
+    """
+
+    force: tuple
+    torque: tuple
+    damping: DampingMatrix
+    wetness: float
+    water: tuple
+
+
+@compiled
+def load_at(boat, probes, sea, waves, position, orientation, t, depths):
+    """
+    Return the `Load` at a place, an orientation and a time, and write ``depths`` (n,) in m.
+
+    F = sum F_i up - m g up + sum c_i s_i v_water,i + s D v_water, s the wetness; the damping
+    -C u of the boat's own velocity is left to the integrator.
+    """
+    R = rotation_matrix(orientation)
+    up = R[2]
+    weight, rate = ramp(sea, t)
+    stream = current(sea, weight)
+    force, torque, water, wetness, damping = gravity(boat, up), ZERO, ZERO, 0.0, no_damping()
+    for i in range(len(probes)):
+        probe = probes[i]
+        r = (probe.x, probe.y, probe.z)
+        x, y, z = add(position, to_world(R, r))
+        eta, orbital = surface(waves, sea.waves, x, y, t, weight, rate)
+        depths[i] = depth = eta - z
+        wet, share = wetting(boat.law, probe.height, depth, up[2])
+
+        lift, turn = buoyancy(boat.law, probe, wet, share, up)
+        force, torque = add(force, lift), add(torque, turn)
+
+        # The probe's own damping pulls along with the water.
+        flow = to_body(R, add(orbital, stream))
+        s = ramped(wet)
+        c = probe_damping(boat, probe, s)
+        pull = scale(c, flow)
+        force, torque = add(force, pull), add(torque, cross(r, pull))
+        damping = with_point(damping, c, r)
+        water = add_scaled(water, probe.share, flow)
+        wetness += probe.share * s
+    drag, spin_drag = body_damping(boat, wetness)
+    return Load(add(force, multiply(drag, water)), torque,
+                with_body(damping, drag, spin_drag), wetness, water)

@@ -1,0 +1,199 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+A boat at rest as a linear system: stiffness, damping, and the modes of heave, roll and pitch.
+
+Everything is about the centre of mass with the boat level, in the order surge, sway, heave,
+roll, pitch, yaw.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import permutations
+
+import numpy as np
+
+from .rest import rest_state
+from ..boat.hull import LAWS
+from ..forces.damping import RAMP
+from ..forces.probe_laws import arm, slope, wetting
+
+MODES = ('heave', 'roll', 'pitch')
+# The coordinates that still water pushes back against: heave, roll, pitch.
+RESTORED = slice(2, 5)
+
+
+@dataclass(frozen=True)
+class Mode:
+    """
+    A natural mode of a boat at rest.
+
+    ``angular_frequency`` rad/s and ``period`` s, without damping; ``damping_ratio``, 1 is
+    critical.  All are None where the water does not push back and nothing oscillates.
+    """
+
+    angular_frequency: float | None
+    period: float | None
+    damping_ratio: float | None
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """
+    The linear system M a + C u + K x = 0 of a boat lying level in still water.
+
+    All (6, 6): ``mass`` M; ``stiffness`` K; ``surface_stiffness`` K+, every probe at the surface;
+    ``damping`` C at the draft, ``wet_damping`` with every probe under water, ``air_damping`` with
+    none; ``retention`` and ``wet_retention`` what retention gives of the first two.
+    """
+
+    mass: np.ndarray
+    stiffness: np.ndarray
+    surface_stiffness: np.ndarray
+    damping: np.ndarray
+    wet_damping: np.ndarray
+    air_damping: np.ndarray
+    retention: np.ndarray
+    wet_retention: np.ndarray
+
+    @classmethod
+    @lru_cache(maxsize=64)
+    def of(cls, boat):
+        """Return the system of a `Boat` at the height where it carries its own weight."""
+        hull = boat.hull
+        depth = -(rest_state(boat).position[2] + boat.probe_offsets[:, 2])
+        law, probes = LAWS.index(hull.law), list(zip(hull.height.tolist(), depth.tolist()))
+        wet, share = np.transpose([wetting(law, *probe, 1.0) for probe in probes])
+        stiffness = hull.max_force * [slope(law, *probe, 1.0) for probe in probes]
+        lift = hull.max_force * share
+        above = boat.probe_offsets[:, 2] + [
+            arm(law, height, part, 1.0) for height, part in zip(hull.height.tolist(), wet)]
+        # A force that stays upright while its point of attack swings out rights or upsets.
+        swing = float(lift @ above)
+        ramp = np.minimum(wet / RAMP, 1.0)
+        submersion = float(hull.share @ ramp)
+        water, air = boat.retention_damping
+        retention = submersion * water + (1.0 - submersion) * air
+        linear = np.diag(boat.damping.linear)
+        lift_stiffness = _lift_stiffness(boat, stiffness)
+        return cls(
+            mass=boat.mass_matrix,
+            stiffness=lift_stiffness + np.diag([0.0, 0.0, 0.0, swing, swing, 0.0]),
+            surface_stiffness=_lift_stiffness(boat, hull.stiffness),
+            damping=retention + submersion * linear + _probe_damping(boat, ramp),
+            wet_damping=water + linear + _probe_damping(boat, np.ones(len(ramp))),
+            air_damping=air, retention=retention, wet_retention=water)
+
+    @cached_property
+    def modes(self):
+        """Return {name: `Mode`}, see `modes`."""
+        # What the other three coordinates, which nothing restores, leave of the inertia.
+        root = _square_root(np.linalg.inv(self.mass)[RESTORED, RESTORED])
+        squared, vectors = np.linalg.eigh(root @ self.stiffness[RESTORED, RESTORED] @ root)
+        energy = vectors ** 2
+        order = max(permutations(range(3)),
+                    key=lambda order: sum(energy[i, mode] for i, mode in enumerate(order)))
+        return {name: _mode(self, squared[mode], root @ vectors[:, mode])
+                for name, mode in zip(MODES, order)}
+
+    @cached_property
+    def highest_frequency(self):
+        """Return omega_max in rad/s, see `highest_frequency`."""
+        return float(np.sqrt(max(0.0, _greatest(self.mass, self.surface_stiffness),
+                                 _greatest(self.mass, self.stiffness))))
+
+    @cached_property
+    def highest_damping_rate(self):
+        """Return the greatest eigenvalue of M^-1 C in 1/s, all wet or in air."""
+        return max(_greatest(self.mass, self.wet_damping),
+                   _greatest(self.mass, self.air_damping))
+
+
+def equilibrium_stiffness(boat):
+    """
+    Return K_eq (6, 6) of a boat lying level in still water, N/m, N and N m per m and rad.
+
+    K = sum k_i g_i g_i^T + diag(0, 0, 0, 1, 1, 0) sum F_i z_i over the probes, k_i the slope of
+    a probe's force with depth, g_i = (0, 0, 1, y_i, -x_i, 0) and z_i the height of its point of
+    attack, all from the centre of mass: hydrostatic stiffness with the metacentric height in it.
+    """
+    return Equilibrium.of(boat).stiffness
+
+
+def modes(boat):
+    """
+    Return {'heave': `Mode`, 'roll': `Mode`, 'pitch': `Mode`} of a boat lying level.
+
+    Coupled modes take the name of the coordinate that holds most of their kinetic energy.  The
+    damping ratio is that of the mode's own shape, phi^T C phi / (2 omega phi^T M phi).
+    """
+    return Equilibrium.of(boat).modes
+
+
+def _mode(rest, squared, shape):
+    """Return the `Mode` of an eigenvalue omega^2 and the shape (3,) of heave, roll, pitch."""
+    if not squared > 0:
+        return Mode(None, None, None)
+    force = np.zeros(6)
+    force[RESTORED] = rest.stiffness[RESTORED, RESTORED] @ shape
+    # All six coordinates of the mode: M phi omega^2 = K phi.
+    shape = np.linalg.solve(rest.mass, force)
+    frequency = float(np.sqrt(squared))
+    ratio = shape @ rest.damping @ shape / (2 * frequency * (shape @ rest.mass @ shape))
+    return Mode(frequency, 2 * np.pi / frequency, float(ratio))
+
+
+def highest_frequency(boat):
+    """
+    Return omega_max in rad/s, the fastest oscillation that a step has to follow.
+
+    omega_max^2 is the larger of the greatest eigenvalues of M^-1 K+ with all probes at the
+    surface and of M^-1 K_eq: the first alone misses a boat hung below its probes.
+    """
+    return Equilibrium.of(boat).highest_frequency
+
+
+def highest_damping_rate(boat):
+    """Return the greatest eigenvalue of M^-1 C in 1/s, all wet or in air."""
+    return Equilibrium.of(boat).highest_damping_rate
+
+
+def _greatest(mass, matrix):
+    root = np.linalg.inv(_square_root(mass))
+    return float(np.linalg.eigvalsh(root @ matrix @ root)[-1])
+
+
+def _square_root(matrix):
+    """Return the symmetric square root of a positive definite matrix."""
+    values, vectors = np.linalg.eigh(matrix)
+    return vectors @ np.diag(np.sqrt(values)) @ vectors.T
+
+
+def _lift_stiffness(boat, stiffness):
+    """Return sum k_i g_i g_i^T for ``stiffness`` (n,) N/m."""
+    x, y, _ = boat.probe_offsets.T
+    zero, one = np.zeros(len(x)), np.ones(len(x))
+    rows = np.stack([zero, zero, one, y, -x, zero])
+    return rows * stiffness @ rows.T
+
+
+def _probe_damping(boat, ramp):
+    """Return sum c_i s_i J_i^T J_i, J_i = [1, -r_i x], for the wetness ``ramp`` (n,)."""
+    matrix = np.zeros((6, 6))
+    for weight, (x, y, z) in zip(boat.damping.probe * boat.hull.share * ramp,
+                                 boat.probe_offsets):
+        jacobian = np.hstack([np.eye(3), [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]])
+        matrix += weight * jacobian.T @ jacobian
+    return matrix

@@ -1,0 +1,139 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+A boat, a sea and a start put together from parameters that are right one by one.
+
+``in_force`` is {name: value} of every parameter, None where it is to be derived.
+"""
+
+from dataclasses import replace
+import math
+
+import numpy as np
+
+from .parameters import WAVE_KINDS
+from ..boat.boat import Boat, Damping
+from ..boat.columns import box_hull
+from ..boat.hull import probe_hull
+from ..boat.state import body_frame, center_of_mass_state
+from ..hydrostatics import rest
+from ..hydrostatics.natural_modes import equilibrium_stiffness
+from ..rotation import from_roll_pitch_yaw
+from ..sea import spectra
+from ..sea.waves import Sea
+
+# Part of critical damping in heave that the probes give a boat when nothing is asked for.
+PROBE_DAMPING_RATIO = 0.3
+# A single probe at the centre of mass has no spread to estimate an inertia from: a solid ball of
+# this radius in m is the least it gets.
+LEAST_BALL = 0.1
+
+
+def assembled_boat(in_force):
+    """
+    Return the `Boat`, with everything derived that was not given.
+
+    Inertia: that of a solid box, or for probes mass times their mean square distance from the
+    centre of mass.  Probe damping: 0.3 of critical in heave, 2 sqrt(K m), K at rest.
+    """
+    mass, gravity = in_force['boat.mass'], in_force['gravity']
+    center_of_mass = np.array(in_force['boat.center_of_mass'])
+    if in_force['probes.positions'] is not None:
+        hull = _probe_hull(in_force, mass * gravity)
+        offsets = hull.positions - center_of_mass
+        estimate = np.full(3, max(mass * np.mean(np.sum(offsets ** 2, axis=1)),
+                                  0.4 * mass * LEAST_BALL ** 2))
+    else:
+        hull = _box(in_force, gravity)
+        length, beam, depth = np.square(in_force['hull.size'])
+        estimate = mass / 12.0 * np.array([beam + depth, length + depth, length + beam])
+    inertia = in_force['boat.inertia']
+    damping = Damping(**{name: in_force[f'damping.{name}'] for name in (
+        'linear_retention', 'angular_retention', 'air_linear_retention',
+        'air_angular_retention', 'linear', 'quadratic')})
+    boat = Boat(mass, hull, estimate if inertia is None else inertia, damping, center_of_mass,
+                gravity)
+    probe = in_force['damping.probe']
+    if probe is None:
+        probe = PROBE_DAMPING_RATIO * 2.0 * math.sqrt(_heave_stiffness(boat) * mass)
+    return replace(boat, damping=replace(damping, probe=probe))
+
+
+def _probe_hull(in_force, weight):
+    """Return the hull of probes given one by one."""
+    positions = np.reshape(in_force['probes.positions'], (-1, 3))
+    weights = in_force['probes.weights']
+    return probe_hull(
+        positions, np.ones(len(positions)) if weights is None else weights, weight=weight,
+        floatiness=in_force['probes.floatiness'], stiffness=in_force['probes.stiffness'],
+        law=in_force['probes.law'] or 'spring')
+
+
+def _box(in_force, gravity):
+    """Return the hull of a box."""
+    size, bottom = in_force['hull.size'], in_force['hull.bottom']
+    return box_hull(
+        size, -size[2] / 2 if bottom is None else bottom, in_force['hull.probes'],
+        specific_weight=in_force['water_density'] * gravity,
+        law=in_force['probes.law'] or 'column')
+
+
+def _heave_stiffness(boat):
+    """Return the stiffness in N/m at rest, or at the surface for a boat that has no rest."""
+    if rest.floats(boat):
+        at_rest = equilibrium_stiffness(boat)[2, 2]
+        if at_rest > 0.0:
+            return float(at_rest)
+    return float(boat.hull.stiffness.sum())
+
+
+def assembled_sea(in_force):
+    """Return the `Sea`."""
+    return Sea(_waves(in_force), in_force['sea.current'], in_force['sea.depth'],
+               in_force['gravity'])
+
+
+def _waves(in_force):
+    """Return the rows of waves of the one kind that is asked for."""
+    rows, state = in_force['sea.waves'] or (), in_force['sea.sea_state']
+    height, period = in_force['sea.significant_height'], in_force['sea.peak_period']
+    asked = [names[0] for names in WAVE_KINDS if any(in_force[name] for name in names)]
+    if len(asked) > 1:
+        raise ValueError(f'sea: expected one kind of waves, got {" and ".join(asked)}')
+    if bool(height) != bool(period):
+        missing, there = (('sea.peak_period', 'sea.significant_height') if height
+                          else ('sea.significant_height', 'sea.peak_period'))
+        raise ValueError(f'{missing}: expected a number above 0 because {there} is '
+                         f'{height or period:g}, got 0')
+    if state:
+        height, period = spectra.sea_state(state, in_force['gravity'])
+    if not height:
+        return rows
+    return spectra.jonswap_waves(
+        height, period, direction=in_force['sea.direction'],
+        components=in_force['sea.components'], seed=in_force['sea.seed'])
+
+
+def assembled_start(boat, in_force):
+    """Return the `State` of the centre of mass at the start, at its draft unless z is given."""
+    x, y, *height = in_force['start.position']
+    roll, pitch, yaw = in_force['start.orientation']
+    orientation = np.array(from_roll_pitch_yaw(roll, pitch, yaw))
+    if height:
+        z, = height
+    else:
+        z = body_frame(boat, rest.rest_state(boat, roll, pitch, yaw, x, y))[0][2]
+    return center_of_mass_state(boat, (x, y, z), orientation, in_force['start.velocity'],
+                                in_force['start.angular_velocity'])

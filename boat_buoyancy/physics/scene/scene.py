@@ -1,0 +1,264 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Scenes: a parameter file, or the same values from elsewhere, turned into a boat on a sea."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+import os
+
+import numpy as np
+
+from . import parameter_file, parameters
+from .build import assembled_boat, assembled_sea, assembled_start
+from .parameter_values import checked
+from ..boat.boat import Boat
+from ..boat.state import PARTS, State
+from ..hydrostatics.warnings import flotation_warnings
+from ..sea.waves import Sea
+from ..step_size.plan import Plan, plan
+from ..stepping.fleet import Fleet
+from ..stepping.simulation import Simulation
+
+# Somewhat more than 2 pi, so that 6.2832 is one.
+FULL_TURN = 6.2833
+# Height over length at which a wave breaks in deep water (Michell 1893).
+BREAKING = 1.0 / 7.0
+PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
+
+
+@dataclass(frozen=True)
+class Scene:
+    """
+    A boat, its sea and its start, and how to step it.
+
+    Main arguments: ``boat``, ``sea``, ``start`` (`State` of the centre of mass); ``rate`` Hz,
+    ``integrator`` and ``substeps`` as asked for, 0 = chosen.
+    Other arguments: ``world_frame``, ``body_frame``, ``thrust_timeout`` s; ``warnings``,
+    sentences; ``given``, the parameters that were given, {name: value}; ``values``, every
+    parameter in force, what was derived filled in: given again they make the same scene.
+    """
+
+    boat: Boat
+    sea: Sea
+    start: State
+    rate: float
+    integrator: str
+    substeps: int
+    world_frame: str
+    body_frame: str
+    thrust_timeout: float
+    warnings: tuple
+    given: dict
+    values: dict
+
+    def simulation(self, *, integrator: str | None = None, rate: float | None = None,
+                   substeps: int | None = None, allow_unstable: bool = False,
+                   state: State | None = None) -> Simulation:
+        """
+        Return a `Simulation` of the scene.
+
+        Main arguments: ``integrator``, ``rate`` Hz and ``substeps`` (0 = chosen from the
+        stability limit) replace the scene's; ``state`` replaces its start.
+        Other arguments: ``allow_unstable`` runs substeps past the stability limit, for study;
+        otherwise they are a ValueError.
+        """
+        rate = self.rate if rate is None else checked('rate', rate)
+        chosen = self.plan(integrator, rate, substeps, allow_unstable)
+        return Simulation(
+            self.boat, self.sea, self.start if state is None else state, rate=rate,
+            integrator=chosen.integrator, substeps=chosen.substeps,
+            warnings=self.warnings + tuple(chosen.warnings))
+
+    def plan(self, integrator: str | None = None, rate: float | None = None,
+             substeps: int | None = None, allow_unstable: bool = False) -> Plan:
+        """Return the `Plan` of `simulation` with the same arguments."""
+        substeps = self.substeps if substeps is None else checked('substeps', substeps)
+        return plan(self.boat, integrator=self.integrator if integrator is None else integrator,
+                    rate=self.rate if rate is None else rate, substeps=substeps,
+                    allow_unstable=allow_unstable)
+
+
+def load_scene(source: str | os.PathLike | Mapping) -> Scene:
+    """
+    Return the `Scene` of a parameter file, or of a dict of parameters.
+
+    ``source`` is the path of a file as ROS reads it, or a dict with dotted or nested names; {} is
+    the default boat.  ValueError says in one line which parameter is wrong, what was given and
+    what is expected.
+    """
+    if isinstance(source, Mapping):
+        return scene_from_values(dict(_flattened(source)))
+    if not isinstance(source, (str, os.PathLike)):
+        raise ValueError('scene: expected the path of a parameter file or a dict of parameters, '
+                         f'got {source!r}')
+    values = {name: value for name, value in parameter_file.read(source).items()
+              if name.partition('.')[0] not in parameter_file.ROS_OWN}
+    try:
+        return scene_from_values(values)
+    except ValueError as error:
+        raise ValueError(f'{source}: {error}') from None
+
+
+def load_fleet(scenes: Iterable, *, threads: int | None = None) -> Fleet:
+    """
+    Return a `Fleet` of many scenes, each with its own boat, sea and start.
+
+    Main arguments: ``scenes``, each a `Scene` or what `load_scene` takes; the same object may
+    stand many times.  They have one rate, one integrator and equally many probes.
+    Other arguments: ``threads`` as of `Fleet`.  ValueError says what differs.
+    """
+    scenes = list(scenes)
+    loaded = {}
+    for place, source in enumerate(scenes):
+        if id(source) not in loaded:
+            try:
+                loaded[id(source)] = source if isinstance(source, Scene) else load_scene(source)
+            except ValueError as error:
+                raise ValueError(f'fleet: scene {place}: {error}') from None
+    plans = {key: scene.plan() for key, scene in loaded.items()}
+    for name, values in (('rate', {scene.rate for scene in loaded.values()}),
+                         ('integrator', {chosen.integrator for chosen in plans.values()})):
+        if len(values) > 1:
+            raise ValueError(f'fleet: expected scenes of one {name}, got '
+                             f'{" and ".join(map(str, sorted(values)))}; give them the same')
+    each = [loaded[id(source)] for source in scenes]
+    if not each:
+        raise ValueError('fleet: expected at least one scene, got none')
+    start = State(*(np.stack([getattr(scene.start, part) for scene in each]) for part in PARTS))
+    return Fleet([scene.boat for scene in each], [scene.sea for scene in each], start,
+                 rate=each[0].rate, integrator=plans[id(scenes[0])].integrator,
+                 substeps=[plans[id(source)].substeps for source in scenes], threads=threads)
+
+
+def scene_from_values(values):
+    """
+    Return the `Scene` of parameters {dotted name: value}; None means not given.
+
+    ValueError as in `load_scene`.
+    """
+    values = {name: value for name, value in values.items() if value is not None}
+    parameters.check_names(values)
+    given = {name: checked(name, value) for name, value in values.items()}
+    in_force = {name: given.get(name, parameter.default)
+                for name, parameter in parameters.PARAMETERS.items()}
+    _check_together(given, in_force)
+
+    boat, sea = assembled_boat(in_force), assembled_sea(in_force)
+    return Scene(
+        boat, sea, assembled_start(boat, in_force), in_force['rate'], in_force['integrator'],
+        in_force['substeps'], in_force['world_frame'], in_force['body_frame'],
+        in_force['thrust.timeout'], _warnings(boat, sea, given, in_force), given,
+        _complete(boat, given, in_force))
+
+
+def _flattened(values, prefix=''):
+    """Yield (dotted name, value) of a dict with dotted or nested names, each name once."""
+    seen = set()
+    for key, value in values.items():
+        name = f'{prefix}{key}'
+        inner = (_flattened(value, name + '.') if isinstance(value, Mapping)
+                 else ((name, value),))
+        for pair in inner:
+            if pair[0] in seen:
+                raise ValueError(f'{pair[0]}: given twice')
+            seen.add(pair[0])
+            yield pair
+
+
+def _check_together(given, in_force):
+    """Raise ValueError for parameters that are right alone and wrong together."""
+    hull = [name for name in given if name.startswith('hull.')]
+    probes = [name for name in PROBES_ONLY if name in given]
+    if hull and probes:
+        raise ValueError(f'hull and probes: expected one of them, got {hull[0]} and {probes[0]}')
+    if probes and 'probes.positions' not in given:
+        raise ValueError('probes.positions: expected x, y, z of every probe because '
+                         f'{probes[0]} is given, got none')
+    positions = given.get('probes.positions')
+    if positions is not None and (not positions or len(positions) % 3):
+        raise ValueError('probes.positions: expected x, y, z of every probe, at least one '
+                         f'probe, got {len(positions)} numbers: {list(positions)}')
+    if positions and 'probes.weights' in given:
+        weights, count = given['probes.weights'], len(positions) // 3
+        if len(weights) != count:
+            raise ValueError(f'probes.weights: expected {count} numbers, one for every probe, '
+                             f'got {len(weights)}: {list(weights)}')
+    if in_force['world_frame'] == in_force['body_frame']:
+        raise ValueError('body_frame: expected another frame than world_frame, '
+                         f'got {in_force["body_frame"]!r} for both')
+
+
+def _warnings(boat, sea, given, in_force):
+    """Return sentences about what was surely not meant."""
+    warnings = list(flotation_warnings(boat))
+    drag = [name for name in ('damping.linear', 'damping.quadratic') if any(in_force[name])]
+    retained = [name for name in ('damping.linear_retention', 'damping.angular_retention')
+                if min(in_force[name]) < 1.0]
+    if drag and retained:
+        warnings.append(
+            f'Drag counts twice: {" and ".join(drag)} on top of {" and ".join(retained)}, so the '
+            'boat will be slower than the vehicle it was measured on; set retention to [1.0].')
+    if drag and 'damping.probe' not in given and boat.damping.probe > 0.0:
+        warnings.append(
+            f'Drag counts twice: {" and ".join(drag)} on top of damping.probe, which is '
+            f'{boat.damping.probe:.4g} N s/m when left out and brakes in all directions; set '
+            'damping.probe: 0.0 for the drag of a measured vehicle alone.')
+    warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
+                 if name in given and given[name] != parameters.PARAMETERS[name].default]
+    for name, angles in (('sea.waves', sea.waves[:, 2]),
+                         ('sea.direction', [in_force['sea.direction']]),
+                         ('start.orientation', in_force['start.orientation'])):
+        largest = max(angles, key=abs, default=0.0)
+        if name in given and abs(largest) > FULL_TURN:
+            warnings.append(f'{name} has an angle of {largest:g}, more than a full turn: angles '
+                            'are in radians, and this looks like degrees.')
+    return (*warnings, *sea_warnings(sea))
+
+
+def sea_warnings(sea):
+    """Return sentences on a `Sea` that no water could have, in a tuple."""
+    steepness = 2.0 * sea.waves[:, 0] * np.hypot(*sea.wave_vector.T) / (2.0 * np.pi)
+    if steepness.max(initial=0.0) <= BREAKING:
+        return ()
+    row = int(np.argmax(steepness))
+    return (f'The waves are steeper than water can be: row {row + 1}, {sea.waves[row].tolist()}, '
+            f'has a height of {steepness[row]:.2g} of its length, and breaks above {BREAKING:.2g};'
+            ' give it a longer period or less amplitude.',)
+
+
+def _without_effect(in_force):
+    """Yield (name, why) of the parameters that nothing in the scene looks at."""
+    if in_force['probes.positions'] is not None:
+        yield ('water_density', 'probes.floatiness sets the lift of probes, and the density of '
+               'water that of a hull shape')
+    if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:
+        for name in ('sea.direction', 'sea.components', 'sea.seed'):
+            yield name, ('it shapes an irregular sea, and there is none: give sea.sea_state or '
+                         'sea.significant_height')
+
+
+def _complete(boat, given, in_force):
+    """Return every parameter in force, with derived ones as they were derived."""
+    derived = {
+        'boat.inertia': tuple(float(boat.inertia[i]) for i in (
+            (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))),
+        'damping.probe': boat.damping.probe,
+        'hull.bottom': float(boat.hull.positions[0, 2]),
+        'probes.weights': (1.0,) * len(boat.hull.positions),
+        'probes.law': boat.hull.law,
+        'sea.waves': ()}
+    other = 'hull.' if 'probes.positions' in given else PROBES_ONLY
+    return {name: derived[name] if value is None else value
+            for name, value in in_force.items() if not name.startswith(other)}

@@ -1,0 +1,233 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The sea: a sum of linear (Airy) waves over water of constant depth, and a uniform current."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import checks
+from ..compiled import compiled, REORDERED
+from ..trigonometry import sine_cosine
+
+MAX_COMPONENTS = 1000
+MAX_AMPLITUDE = 1000.0
+MIN_PERIOD, MAX_PERIOD = 0.01, 1e6
+WAVE_FORM = 'rows of [amplitude m, period s, direction rad, phase rad]'
+
+# Rows of a wave table, a column a wave.  Amplitudes are start + weight * rise, weight 0 to 1 as
+# the sea fades (see `fading`); a wave of 1 m moves the water at the speeds given.
+KX, KY, FREQUENCY, PHASE, START, RISE, ALONG_X, ALONG_Y = range(8)
+# What the step reads of a sea beside its waves.
+SEA = np.dtype([('waves', 'i8'), ('fade_start', 'f8'), ('fade_duration', 'f8'),
+                ('current', 'f8', 2), ('current_rise', 'f8', 2)])
+
+
+@compiled(arithmetic=REORDERED)
+def surface(waves, number, x, y, t, weight, rate):
+    """
+    Return the height of the water in m and its orbital velocity (3) m/s at a place and time.
+
+    eta = sum a cos theta, u = sum a w / tanh(k h) cos theta along each wave's direction,
+    w = sum a w sin theta + sum a' cos theta, theta = k.x - w t + phase; amplitudes
+    a = start + weight rise, a' = rate rise.  Of the table's waves, the first ``number``: what
+    comes after them would not change the sums, but their order.
+    """
+    kx, ky, frequency, phase = waves[KX], waves[KY], waves[FREQUENCY], waves[PHASE]
+    start, rise, along_x, along_y = waves[START], waves[RISE], waves[ALONG_X], waves[ALONG_Y]
+    eta = u = v = w = 0.0
+    for j in range(number):
+        theta = kx[j] * x + ky[j] * y - frequency[j] * t + phase[j]
+        sine, cosine = sine_cosine(theta)
+        amplitude = start[j] + weight * rise[j]
+        eta += amplitude * cosine
+        u += amplitude * along_x[j] * cosine
+        v += amplitude * along_y[j] * cosine
+        w += amplitude * frequency[j] * sine + rate * rise[j] * cosine
+    return eta, (u, v, w)
+
+
+def wavenumber(angular_frequency, depth=0.0, gravity=9.81):
+    """
+    Return k in rad/m that solves the dispersion relation w^2 = g k tanh(k depth).
+
+    Main arguments: ``angular_frequency`` (...,) rad/s; ``depth`` m, 0 = deep water.
+    Other arguments: ``gravity`` m/s^2.
+    """
+    deep = np.asarray(angular_frequency, float) ** 2 / gravity
+    if depth == 0.0:
+        return deep
+    # Newton on x tanh x = y with x = k depth, from a start that lies right of the root.
+    y = deep * depth
+    x = np.maximum(y, np.sqrt(y))
+    for _ in range(20):
+        t = np.tanh(x)
+        x = x - (x * t - y) / (t + x * (1.0 - t * t))
+    return x / depth
+
+
+class Water:
+    """
+    What every sea can be asked: its surface and its motion, from its table of waves.
+
+    ``table`` (8, W), see above; ``amplitudes`` (time) and ``currents`` (time) as they are then.
+    """
+
+    def _angle(self, x, y, time):
+        x, y, time = np.broadcast_arrays(x, y, time)
+        kx, ky, frequency, phase = self.table[:4]
+        return (x[..., None] * kx + y[..., None] * ky - time[..., None] * frequency + phase)
+
+    def elevation(self, x: ArrayLike, y: ArrayLike, time: ArrayLike) -> np.ndarray:
+        """Return the height of the surface in m at world ``x``, ``y`` m and ``time`` s."""
+        amplitude, _ = self.amplitudes(time)
+        return (np.cos(self._angle(x, y, time)) * amplitude).sum(axis=-1)
+
+    def slope(self, x: ArrayLike, y: ArrayLike, time: ArrayLike) -> np.ndarray:
+        """Return d eta/dx and d eta/dy, shape (..., 2)."""
+        amplitude, _ = self.amplitudes(time)
+        return -(np.sin(self._angle(x, y, time)) * amplitude) @ self.table[:2].T
+
+    def velocity(self, x: ArrayLike, y: ArrayLike, time: ArrayLike) -> np.ndarray:
+        """Return the water velocity at the surface, (..., 3) m/s, world axes, with current."""
+        angle, (amplitude, change) = self._angle(x, y, time), self.amplitudes(time)
+        cosine, current = np.cos(angle), self.current_at(time)
+        along = (cosine * amplitude) @ self.table[[ALONG_X, ALONG_Y]].T
+        up = (np.sin(angle) * amplitude) @ self.table[FREQUENCY] + (cosine * change).sum(axis=-1)
+        return np.concatenate([along + current, up[..., None]], axis=-1)
+
+
+@dataclass(frozen=True)
+class Sea(Water):
+    """
+    The water surface and its motion, a function of place and time only.
+
+    Main arguments: ``waves`` (W, 4), rows of amplitude m, period s, direction rad (where the
+    waves go, counter-clockwise from world x) and phase rad, eta = sum a cos(k.x - w t + phase).
+    Other arguments: ``current`` (2,) m/s in world x and y; ``depth`` m, 0 = deep water;
+    ``gravity`` m/s^2.  ValueError says which row is wrong and what is expected.
+    """
+
+    waves: ArrayLike = ()
+    current: ArrayLike = (0.0, 0.0)
+    depth: float = 0.0
+    gravity: float = 9.81
+
+    def __post_init__(self):
+        """Store checked, read-only arrays."""
+        object.__setattr__(self, 'waves', checked_waves(self.waves))
+        object.__setattr__(self, 'current', checks.vector('sea.current', self.current, 2))
+        object.__setattr__(self, 'depth', checks.number('sea.depth', self.depth, at_least=0.0))
+        object.__setattr__(self, 'gravity', checks.number('gravity', self.gravity, above=0.0))
+
+    @cached_property
+    def angular_frequency(self) -> np.ndarray:
+        """Return (W,) rad/s."""
+        return 2 * np.pi / self.waves[:, 1]
+
+    @cached_property
+    def wave_vector(self) -> np.ndarray:
+        """Return (W, 2), rad/m along world x and y."""
+        k = wavenumber(self.angular_frequency, self.depth, self.gravity)
+        direction = self.waves[:, 2]
+        return np.stack([k * np.cos(direction), k * np.sin(direction)], axis=1)
+
+    @cached_property
+    def _horizontal_ratio(self):
+        """Return (W,), horizontal over vertical orbital speed at the surface, 1 / tanh(k h)."""
+        if self.depth == 0.0:
+            return np.ones(len(self.waves))
+        k = np.hypot(*self.wave_vector.T)
+        return 1.0 / np.tanh(k * self.depth)
+
+    @cached_property
+    def is_flat(self) -> bool:
+        """Return True when there are no waves at all."""
+        return len(self.waves) == 0
+
+    @cached_property
+    def table(self) -> np.ndarray:
+        """Return the table of waves (8, W) that the step reads."""
+        amplitude, _, direction, phase = self.waves.T
+        along = self.angular_frequency * self._horizontal_ratio
+        return np.stack([*self.wave_vector.T, self.angular_frequency, phase, amplitude,
+                         np.zeros(len(self.waves)), along * np.cos(direction),
+                         along * np.sin(direction)])
+
+    @cached_property
+    def record(self) -> np.ndarray:
+        """Return what the step reads beside the waves, as a record of `SEA`."""
+        return np.array((len(self.waves), -1.0, 1.0, self.current, (0.0, 0.0)), SEA)
+
+    def amplitudes(self, time: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+        """Return amplitude (..., W) m of each wave, and its change (..., W) in m/s."""
+        return self.table[START], self.table[RISE]
+
+    def current_at(self, time: ArrayLike) -> np.ndarray:
+        """Return the current (..., 2) m/s."""
+        return self.current
+
+    @cached_property
+    def fastest_water(self) -> float:
+        """Return a bound of the water speed at the surface in m/s: sum a w/tanh(kh) + current."""
+        orbital = self.waves[:, 0] * self.angular_frequency * self._horizontal_ratio
+        return float(orbital.sum() + np.hypot(*self.current))
+
+    def starting_at(self, time: float) -> 'Sea':
+        """
+        Return the same sea with its clock set so that its time 0 is this sea's ``time`` s.
+
+        A simulation that counts from 0 sees the water of a large absolute time without the
+        round-off that a large time would bring to every step.
+        """
+        waves = self.waves.copy()
+        turns = np.fmod(time, waves[:, 1]) / waves[:, 1]
+        waves[:, 3] = np.fmod(waves[:, 3] - 2 * np.pi * turns, 2 * np.pi)
+        return replace(self, waves=waves)
+
+
+def checked_waves(rows):
+    """
+    Return rows of waves as a read-only (W, 4) array.
+
+    ``rows`` is a (W, 4) array or a flat list of 4 W numbers.  ValueError names the row that is
+    wrong, what was given and what is expected.
+    """
+    try:
+        flat = np.array(rows, float).ravel()
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f'sea.waves: expected {WAVE_FORM}, got {rows!r}') from None
+    if flat.size % 4:
+        raise ValueError(f'sea.waves: expected {WAVE_FORM}, four numbers a row, '
+                         f'got {flat.size} numbers')
+    if flat.size > 4 * MAX_COMPONENTS:
+        raise ValueError(f'sea.waves: expected at most {MAX_COMPONENTS} rows, '
+                         f'got {flat.size // 4}')
+    waves = flat.reshape(-1, 4)
+    amplitude, period = waves[:, 0], waves[:, 1]
+    for wrong, expected in (
+            (~np.isfinite(waves).all(axis=1), 'four finite numbers'),
+            ((amplitude < 0) | (amplitude > MAX_AMPLITUDE),
+             f'an amplitude of 0 to {MAX_AMPLITUDE:g} m'),
+            ((period < MIN_PERIOD) | (period > MAX_PERIOD),
+             f'a period of {MIN_PERIOD:g} to {MAX_PERIOD:g} s')):
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            raise ValueError(f'sea.waves: row {row + 1} is {waves[row].tolist()}, '
+                             f'expected {expected}: {WAVE_FORM}')
+    waves.setflags(write=False)
+    return waves

@@ -1,0 +1,226 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What `Simulation` and `Fleet` share: boats made ready for the step, and the step called on them.
+
+Compiled code works on arrays; plain Python on lists and named tuples of the same numbers.
+"""
+
+import numpy as np
+
+from .guard import slowest_reached
+from .integrators import INTEGRATORS
+from .march import begin, LOAD_SIZE, march_by, PACE
+from .speed_bound import SpeedBound
+from .. import checks
+from ..boat.hull import LAWS
+from ..boat.records import readable
+from ..compiled import compile_now
+from ..forces.probe_laws import wetting
+from ..rotation import rotation_matrix
+
+NO_THRUST, NO_TRACK = np.zeros((1, 6)), np.empty((0, 0))
+
+
+class Engine:
+    """
+    Boats of equally many probes, stepped at one rate by one integrator.
+
+    Main arguments: ``boats`` and ``seas``, a `Boat` and a sea for each; ``rows`` (B, 13), their
+    motions; ``rate`` Hz; ``integrator`` a name; ``substeps``, integrator steps per period of each.
+    Public: all of these; ``steps``, periods done; ``failed`` (B,), the number of the period in
+    which a boat failed, or 0; ``is_plain`` Python.
+    """
+
+    def __init__(self, boats, seas, rows, *, rate, integrator, substeps):
+        """Check everything and compute the loads at time 0."""
+        if integrator not in INTEGRATORS:
+            raise ValueError(f'integrator: expected one of {", ".join(INTEGRATORS)}, '
+                             f'got {integrator!r}')
+        self.integrator, self.rate = integrator, checks.number('rate', rate, above=0.0)
+        self.substeps = [checks.count('substeps', number, at_least=1) for number in substeps]
+        self.boats, self.seas, self.steps = list(boats), list(seas), 0
+        counts = {len(boat.hull.share) for boat in self.boats}
+        if len(counts) > 1:
+            raise ValueError('fleet: expected boats of equally many probes, got boats of '
+                             f'{" and ".join(map(str, sorted(counts)))} probes')
+        size, = np.shape(self.substeps)
+        self.failed, self._reached = np.zeros(size, int), np.zeros(size)
+        self._rows = np.array(rows, float)
+        self._loads, self._depths = np.zeros((size, LOAD_SIZE)), np.zeros((size, *counts))
+        self.is_plain = False
+        self._set_records()
+        self._march = compile_now(
+            march_by(integrator), *self._records, *self._memory, NO_THRUST, 0, 0, 0, 1,
+            NO_TRACK, NO_TRACK)
+        self._begin = compile_now(begin, *self._records[:5], *self._memory[:3], self._all, 0.0)
+        if self._march is march_by(integrator) or self._begin is begin:
+            self.is_plain, self._march, self._begin = True, march_by(integrator), begin
+            self._rows, self._loads, self._depths = (
+                values.tolist() for values in (self._rows, self._loads, self._depths))
+            self._set_records()
+        self._start(self._all)
+
+    @property
+    def rows(self):
+        """Return the motions (B, 13) of all boats."""
+        return np.array(self._rows)
+
+    def row(self, boat):
+        """Return the motion of one boat, 13 floats."""
+        return self._rows[boat] if self.is_plain else self._rows[boat].tolist()
+
+    @property
+    def depths(self):
+        """Return (B, n) m, how deep all probes are."""
+        return np.array(self._depths)
+
+    def forces(self, boat):
+        """Return the lift (n,) N of each probe of one boat."""
+        hull, up = self.boats[boat].hull, rotation_matrix(self.row(boat)[3:7])[2]
+        law = LAWS.index(hull.law)
+        return hull.max_force * [wetting(law, height, depth, up[2])[1] for height, depth in zip(
+            hull.height.tolist(), np.asarray(self._depths[boat]).tolist())]
+
+    @property
+    def time(self):
+        """Return the time in s: periods done / rate, never a running sum."""
+        return self.steps / self.rate
+
+    def put(self, chosen, rows):
+        """Put the boats ``chosen`` (k,) to other motions ``rows`` (k, 13), none of them failed."""
+        chosen = np.asarray(chosen)
+        for place, row in zip(chosen, rows):
+            self._rows[place] = row.tolist() if self.is_plain else row
+        self.failed[chosen] = 0
+        self._start(chosen)
+
+    def prepare(self):
+        """Make what was put into ``boats`` and ``seas`` ready for the next step."""
+        self._set_records()
+        self._start(self._all)
+
+    def advance(self, thrust, by_boat, by_period, periods, track=NO_TRACK, depth_track=NO_TRACK):
+        """
+        Advance all boats by some periods; arguments as of `march`.
+
+        Returns how many have failed.
+        """
+        first, self.steps = self.steps, self.steps + periods
+        if self.is_plain:
+            return self._advance_plain(thrust, by_boat, by_period, first, periods, track,
+                                       depth_track)
+        return self._march(*self._records, *self._memory, thrust, by_boat, by_period, first,
+                           periods, track, depth_track)
+
+    def advance_parts(self, pool, parts, thrust, by_boat):
+        """Advance all boats by one period, slices ``parts`` of them each in a thread of a pool."""
+        first, self.steps = self.steps, self.steps + 1
+        # Compiled code lets go of Python's lock.
+        list(pool.map(lambda part: self._march(
+            *self._part(part), thrust[part] if by_boat else thrust, by_boat, 0, first, 1,
+            NO_TRACK, NO_TRACK), parts))
+
+    def _part(self, boats):
+        """Return records and memory of a slice of the boats, for `march`."""
+        fleet, probes, seas, waves, sea_of, paces = self._records
+        return (fleet[boats], probes[boats], seas, waves, sea_of[boats], paces[boats],
+                *(values[boats] for values in self._memory))
+
+    def _advance_plain(self, thrust, by_boat, by_period, first, periods, track, depth_track):
+        """Do what `march` does, boat by boat: what Python raises is the end of that boat only."""
+        thrust = thrust.tolist()
+        for i in range(len(self.boats)):
+            part = self._part(slice(i, i + 1))
+            for j in range(periods):
+                row = i * by_boat + j * by_period
+                rows = slice(j, j + 1)
+                written, written_depths = ([[0.0] * 13], [list(self._depths[i])]) if len(
+                    track) else (NO_TRACK, NO_TRACK)
+                try:
+                    self._march(*part, thrust[row:row + 1], 0, 0, first + j, 1, written,
+                                written_depths)
+                except ArithmeticError:
+                    # A division by nothing, or a number too large for one.
+                    self.failed[i] = first + j + 1
+                    self._begin(*self._records[:5], *self._memory[:3], [i],
+                                (first + j) / self.rate)
+                if len(track):
+                    track[rows], depth_track[rows] = written, written_depths
+        return int(np.count_nonzero(self.failed))
+
+    @property
+    def _memory(self):
+        return self._rows, self._loads, self._depths, self._reached, self.failed
+
+    @property
+    def _all(self):
+        return np.arange(len(self.boats))
+
+    def _set_records(self):
+        """Write boats and seas as the records of `march`."""
+        different = list({id(sea): sea for sea in self.seas}.values())
+        places = {id(sea): place for place, sea in enumerate(different)}
+        most = max(sea.table.shape[1] for sea in different)
+        # Tables of seas with fewer are filled up; no step reads that.
+        waves = np.zeros((len(different), 8, most))
+        for table, sea in zip(waves, different):
+            table[:, :sea.table.shape[1]] = sea.table
+        bounds = [SpeedBound.of(boat, sea) for boat, sea in zip(self.boats, self.seas)]
+        records = [np.array([boat.record for boat in self.boats]),
+                   np.array([boat.probe_records for boat in self.boats]),
+                   np.array([sea.record for sea in different])]
+        paces = np.array([(number, self.rate, bound.record.item())
+                          for number, bound in zip(self.substeps, bounds)], PACE)
+        if self.is_plain:
+            records, waves, paces = map(readable, records), waves.tolist(), readable(paces)
+        self._records = (*records, waves, np.array([places[id(sea)] for sea in self.seas]), paces)
+        self._bounds = bounds
+
+    def _start(self, chosen):
+        """Compute loads and depths of some boats, and from which speed the guard counts."""
+        self._begin(*self._records[:5], *self._memory[:3], chosen, self.time)
+        with np.errstate(over='ignore'):
+            for i in chosen:
+                bound, boat = self._bounds[i], self.boats[i]
+                v, w = np.split(np.asarray(self._rows[i])[7:], 2)
+                self._reached[i] = max(np.sqrt(boat.mass * v @ v + w @ boat.inertia @ w),
+                                       slowest_reached(bound, 1.0 / self.rate))
+
+
+class Stepped:
+    """What a simulation and a fleet tell of how they are stepped, by their `Engine`."""
+
+    _engine: Engine
+
+    @property
+    def rate(self) -> float:
+        """Return the rate in Hz."""
+        return self._engine.rate
+
+    @property
+    def integrator(self) -> str:
+        """Return the name of the integrator."""
+        return self._engine.integrator
+
+    @property
+    def steps(self) -> int:
+        """Return how many periods were stepped."""
+        return self._engine.steps
+
+    @property
+    def time(self) -> float:
+        """Return the time in s: steps taken / rate, never a running sum."""
+        return self._engine.time

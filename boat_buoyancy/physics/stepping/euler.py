@@ -1,0 +1,67 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The two Euler integrators, for study: explicit, and symplectic as in a plain game loop."""
+
+from .equations_of_motion import damped_accelerations, explicit_accelerations
+from .rates import add_scaled_quaternion, moved, rate_of
+from ..boat.state import Motion
+from ..compiled import compiled
+from ..forces.damping import no_damping, retention
+from ..forces.load import load_at
+from ..rotation import normalise, product, rotation_matrix, to_body, to_world
+from ..vectors import add_scaled, multiply, scale, subtract, times
+
+
+@compiled
+def euler(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
+    """Return motion and load after h s, both from the old rates: never stable, for study."""
+    motion = moved(motion, rate_of(boat, load, thrust, motion), h)
+    return motion, load_at(boat, probes, sea, waves, motion.position, motion.orientation, t + h,
+                           depths)
+
+
+@compiled
+def symplectic_euler(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
+    """
+    Return motion and load after h s of the plain game loop: v += a h; v *= 1 - d h; x += v h.
+
+    First order, one force a step.  d is the rate of retention; all other damping is an explicit
+    force in a.  Stable for w h < 2 and d h < 1.
+    """
+    velocity, spin = motion.body_velocity, motion.angular_velocity
+    moving, turning = explicit_accelerations(boat, load, thrust, velocity, spin)
+    # The load's damping holds the retention, too: give back what the factor will take.
+    back = retained(boat, load, velocity, spin)
+    velocity = add_scaled(add_scaled(velocity, h, moving), h, back[0])
+    spin = add_scaled(add_scaled(spin, h, turning), h, back[1])
+    lost = retained(boat, load, velocity, spin)
+    velocity, spin = add_scaled(velocity, -h, lost[0]), add_scaled(spin, -h, lost[1])
+
+    moving = to_world(rotation_matrix(motion.orientation), velocity)
+    position = add_scaled(motion.position, h, moving)
+    x, y, z = scale(0.5, spin)
+    orientation = normalise(add_scaled_quaternion(
+        motion.orientation, h, product(motion.orientation, (x, y, z, 0.0))))
+    load = load_at(boat, probes, sea, waves, position, orientation, t + h, depths)
+    return Motion(position, orientation, to_body(rotation_matrix(orientation), moving),
+                  spin), load
+
+
+@compiled
+def retained(boat, load, velocity, spin):
+    """Return what retention takes a second of a velocity relative to the water, M^-1 D u."""
+    drag, spin_drag = retention(boat, load.wetness)
+    return damped_accelerations(boat, no_damping(), 0.0, multiply(
+        drag, subtract(velocity, load.water)), times(spin_drag, spin))

@@ -1,0 +1,147 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The step of many boats by many periods, in one call: what is compiled.
+
+What changes of a boat are rows of floats (arrays when compiled, lists in plain Python): the state
+(13), the load (22) at its place and time, and the depths of its probes.
+"""
+
+import numpy as np
+
+from .guard import is_possible, speed_reached
+from .integrators import INTEGRATORS
+from .leapfrog import leapfrog as step
+from .speed_bound import BOUND
+from ..boat.state import Motion
+from ..compiled import calling, compiled
+from ..forces.damping import DampingMatrix
+from ..forces.load import Load, load_at
+from ..vectors import cross, subtract, three
+
+# How a boat is stepped: integrator steps per period, the rate in Hz of periods, and the bound that
+# the guard holds its speed to.
+PACE = np.dtype([('substeps', 'i8'), ('rate', 'f8'), ('bound', BOUND)])
+STATE_SIZE, LOAD_SIZE = 13, 22
+
+
+@compiled
+def march(boats, probes, seas, waves, sea_of, paces, states, loads, depths, reached, failed,
+          thrust, by_boat, by_period, first, periods, track, depth_track):
+    """
+    Advance every boat by some periods; return how many of them have failed.
+
+    Main arguments: records of ``boats`` (B,), ``probes`` (B, n), ``seas`` (S,), ``paces`` (B,);
+    ``waves`` S tables; ``sea_of`` (B,) which sea is whose.  Rows that change: ``states``,
+    ``loads``, ``depths`` (B, n), ``reached`` (B,) |u|_M, ``failed`` (B,), the number of
+    the period in which a boat failed, or 0: it stands still from then on, in its last good state.
+    Other arguments: ``thrust`` (k, 6) N and N m, body axes, at the body origin; row
+    i by_boat + j by_period is boat i's in period j; ``first``, periods done before;
+    ``track`` (periods, 13) and ``depth_track`` (periods, n) are written for the only boat, or
+    empty.
+    """
+    for i in range(len(boats)):
+        boat, hull, pace, depth = boats[i], probes[i], paces[i], depths[i]
+        sea, table = seas[sea_of[i]], waves[sea_of[i]]
+        state, memory, greatest = states[i], loads[i], float(reached[i])
+        motion, load = read_motion(state), read_load(memory)
+        h = 1.0 / (pace.rate * pace.substeps)
+        for j in range(periods):
+            if failed[i] != 0:
+                break
+            push = about_center_of_mass(boat, thrust[i * by_boat + j * by_period])
+            after, load_after = motion, load
+            for k in range(pace.substeps):
+                t = ((first + j) * pace.substeps + k) / (pace.rate * pace.substeps)
+                after, load_after = step(boat, hull, sea, table, after, load_after, push, t, h,
+                                         depth)
+                greatest = speed_reached(pace.bound, greatest, push, h)
+                if not is_possible(pace.bound, greatest, after):
+                    failed[i] = first + j + 1
+                    break
+            if failed[i] != 0:
+                # The depths were written over: those of the last good state, to be read again.
+                load_at(boat, hull, sea, table, motion.position, motion.orientation,
+                        (first + j) / pace.rate, depth)
+                break
+            motion, load, reached[i] = after, load_after, greatest
+            if len(track) > 0:
+                write_motion(motion, track[j])
+                for n in range(len(depth)):
+                    depth_track[j][n] = depth[n]
+        write_motion(motion, state)
+        write_load(load, memory)
+    count = 0
+    for i in range(len(boats)):
+        count += failed[i] != 0
+    return count
+
+
+def march_by(integrator):
+    """Return `march` by the integrator of a name."""
+    return calling(march, step=INTEGRATORS[integrator].step)
+
+
+@compiled
+def begin(boats, probes, seas, waves, sea_of, states, loads, depths, chosen, t):
+    """Compute loads and depths of the boats ``chosen`` (k,) at their places and t s."""
+    for i in chosen:
+        motion = read_motion(states[i])
+        write_load(load_at(boats[i], probes[i], seas[sea_of[i]], waves[sea_of[i]],
+                           motion.position, motion.orientation, t, depths[i]), loads[i])
+
+
+@compiled
+def about_center_of_mass(boat, thrust):
+    """Return force and torque about the centre of mass of six numbers at the body origin."""
+    force, torque = three(thrust), (thrust[3], thrust[4], thrust[5])
+    return force, subtract(torque, cross(three(boat.center_of_mass), force))
+
+
+@compiled
+def read_motion(row):
+    """Return the `Motion` of a row (13)."""
+    return Motion((row[0], row[1], row[2]), (row[3], row[4], row[5], row[6]),
+                  (row[7], row[8], row[9]), (row[10], row[11], row[12]))
+
+
+@compiled
+def write_motion(motion, row):
+    """Write a `Motion` to a row (13)."""
+    row[0], row[1], row[2] = motion.position
+    row[3], row[4], row[5], row[6] = motion.orientation
+    row[7], row[8], row[9] = motion.body_velocity
+    row[10], row[11], row[12] = motion.angular_velocity
+
+
+@compiled
+def read_load(row):
+    """Return the `Load` of a row (22)."""
+    damping = DampingMatrix((row[6], row[7], row[8]), (row[9], row[10], row[11]),
+                            (row[12], row[13], row[14], row[15], row[16], row[17]))
+    return Load((row[0], row[1], row[2]), (row[3], row[4], row[5]), damping, row[18],
+                (row[19], row[20], row[21]))
+
+
+@compiled
+def write_load(load, row):
+    """Write a `Load` to a row (22)."""
+    row[0], row[1], row[2] = load.force
+    row[3], row[4], row[5] = load.torque
+    row[6], row[7], row[8] = load.damping.linear
+    row[9], row[10], row[11] = load.damping.coupling
+    row[12], row[13], row[14], row[15], row[16], row[17] = load.damping.angular
+    row[18] = load.wetness
+    row[19], row[20], row[21] = load.water

@@ -1,0 +1,112 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The bound on a boat's speed that holds for the implicit integrator at any step.
+
+In the norm |u|_M = sqrt(u^T M u), M = diag(m, m, m, I), with drag of at least d > 0 on linear and
+angular velocity everywhere, lift that is capped, and water that moves at W at most, a step h
+from u to u+ obeys
+
+    |u+| <= (a + sqrt(a^2 + 4 (1 + h d) h P)) / (2 (1 + h d)),  a = |u| + h F,
+
+because M + h C + h^2 K+ >= (1 + h d) M.  F bounds the force in the norm of M^-1, P the power that
+moving water can feed in through drag.  The bound is of speed, not of error.
+"""
+
+from dataclasses import astuple, dataclass
+import math
+
+import numpy as np
+
+
+# A `SpeedBound` as the guard reads it in the step.
+BOUND = np.dtype([(name, 'f8') for name in (
+    'force', 'torque', 'mass', 'least_moment', 'drag', 'power', 'power_rate')])
+
+
+@dataclass(frozen=True)
+class SpeedBound:
+    """
+    What bounds the speed of a boat on a sea; make one with `SpeedBound.of`.
+
+    ``force`` N and ``torque`` N m, the most that lift, weight and linear drag of moving water
+    exert; ``mass`` kg and ``least_moment`` kg m^2; ``drag`` 1/s, the least rate d; ``power`` W,
+    P at rest, and ``power_rate`` W per unit of |u|_M, what quadratic drag adds at speed.
+    """
+
+    force: float
+    torque: float
+    mass: float
+    least_moment: float
+    drag: float
+    power: float
+    power_rate: float
+
+    @classmethod
+    def of(cls, boat, sea):
+        """Return the bound of a `Boat` on a `Sea`."""
+        hull, damping, water = boat.hull, boat.damping, sea.fastest_water
+        reach = np.linalg.norm(boat.probe_offsets, axis=1)
+        if hull.law == 'column':
+            # The force acts somewhere between the bottom of the column and its top.
+            top = boat.probe_offsets + hull.height[:, None] * [0.0, 0.0, 1.0]
+            reach = np.maximum(reach, np.linalg.norm(top, axis=1))
+        rates = damping.rates
+        drag = float(rates.min())
+        quarter = 0.25 * water ** 2
+        quadratic = float(damping.quadratic[:3].max())
+        return cls(
+            force=float(hull.max_force.sum() + boat.weight + drag * boat.mass * water),
+            torque=float(hull.max_force @ reach),
+            mass=boat.mass, least_moment=float(boat.principal[0][0]), drag=drag,
+            power=quarter * (damping.probe + boat.mass * (float(rates[:, :3].max()) - drag)
+                             + float(damping.linear[:3].max()) + quadratic * water),
+            power_rate=quarter * quadratic / math.sqrt(boat.mass))
+
+    @property
+    def record(self):
+        """Return the bound as a record of `BOUND`."""
+        return np.array(astuple(self), BOUND)
+
+    def forcing(self, force=0.0, torque=0.0):
+        """
+        Return F for thrust of ``force`` N and ``torque`` N m about the centre of mass.
+
+        Both are magnitudes, numbers or arrays.
+        """
+        force, torque = self.force + force, self.torque + torque
+        return (force * force / self.mass + torque * torque / self.least_moment) ** 0.5
+
+    def after(self, norm, h, force=0.0, torque=0.0):
+        """Return the most that |u|_M can be after a step of ``h`` s from ``norm``."""
+        damped = 1.0 + h * self.drag
+        a = norm + h * self.forcing(force, torque)
+        power = self.power + self.power_rate * norm
+        return (a + (a * a + 4.0 * damped * h * power) ** 0.5) / (2.0 * damped)
+
+    def limit(self, force=0.0, torque=0.0):
+        """Return the |u|_M that is never passed from below; infinite without drag in air."""
+        forcing = self.forcing(force, torque) + self.power_rate
+        if not self.drag > 0:
+            return math.inf
+        root = (forcing * forcing + 4.0 * self.drag * self.power) ** 0.5
+        return (forcing + root) / (2.0 * self.drag)
+
+
+def speed_norm(boat, state):
+    """Return |u|_M (...,) of a `State`, sqrt of twice the kinetic energy."""
+    spin = state.angular_velocity
+    return np.sqrt(boat.mass * (state.velocity ** 2).sum(axis=-1)
+                   + np.einsum('...i,ij,...j->...', spin, boat.inertia, spin))
