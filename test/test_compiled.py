@@ -185,6 +185,20 @@ def test_turned_off_or_missing_it_is_plain_without_a_word(environment):
     assert (out, error) == (['plain', 'Python', "''"], '')
 
 
+def test_a_fleet_without_numba_says_once_what_to_install():
+    code = """
+    import sys
+    sys.modules['numba'] = None
+    from boat_buoyancy.physics import load_fleet
+    for _ in range(2):
+        load_fleet([{}, {}]).step()
+    """
+    _, error = python(code, NUMBA_DISABLE_JIT='0')
+    assert error.count('pip install "boat_buoyancy[fast]"') == 1
+    # Who has turned it off knows.
+    assert python(code, NUMBA_DISABLE_JIT='1')[1] == ''
+
+
 @needs_numba
 def test_numbas_own_setting_of_the_cache_is_put_back(monkeypatch):
     monkeypatch.setattr(compiled.numba().config, 'CACHE_DIR', 'as it was')
@@ -201,7 +215,8 @@ def test_the_notice_is_given_until_something_is_compiled(tmp_path):
     print(compiled.notice() or 'nothing')
     """
     out, _ = python(code, XDG_CACHE_HOME=str(tmp_path), NUMBA_CACHE_DIR='')
-    assert out[0].startswith('compiling_the_step,_once_on_this_machine') and out[1] == 'nothing'
+    assert out[0].startswith('compiling_the_step,_once_for_each_integrator')
+    assert out[1] == 'nothing'
 
 
 @pytest.mark.skipif(find_spec('numba') is None, reason='Numba is not there')

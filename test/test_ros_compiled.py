@@ -38,7 +38,7 @@ def step_of(boat):
 
 @needs_numba
 @pytest.mark.parametrize(('cache', 'said'), [
-    ('a_folder', 'compiling the step, once on this machine'),
+    ('a_folder', 'compiling the step, once for each integrator on this machine'),
     ('a_file', 'compiling the step, some seconds at every start')])
 def test_what_takes_seconds_is_said_before_it_is_done(tmp_path, cache, said):
     (tmp_path / 'a_file').write_text('')

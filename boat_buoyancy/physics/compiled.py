@@ -66,7 +66,7 @@ def compiled(function=None, *, arithmetic=EXACT):
 @lru_cache(maxsize=None)
 def numba():
     """Return the module Numba, or None where it is missing, too old, broken or turned off."""
-    if _turned_off():
+    if turned_off():
         return None
     try:
         import numba as module
@@ -93,10 +93,11 @@ def kind():
 
 def expected_kind():
     """Return what `kind` will say where Numba is in order, without the time to import it."""
-    return 'plain Python' if _turned_off() or find_spec('numba') is None else 'compiled'
+    return 'plain Python' if turned_off() or find_spec('numba') is None else 'compiled'
 
 
-def _turned_off():
+def turned_off():
+    """Return whether the environment asks for plain Python."""
     return os.environ.get('NUMBA_DISABLE_JIT', '0') not in ('', '0')
 
 
@@ -208,7 +209,7 @@ def notice(function=None):
     name = '*' if function is None else f'*.{function.__qualname__}-*'
     if any(folder.rglob(f'{name}.nbi')):
         return ''
-    return 'compiling the step, once on this machine: some seconds'
+    return 'compiling the step, once for each integrator on this machine: some seconds'
 
 
 def _warn(what):

@@ -27,6 +27,8 @@ def main():
         print(f'buoyancy_node: needs ROS 2 Jazzy ({" ".join(str(error).split())}): source '
               '/opt/ros/jazzy/setup.bash, or run ./install.sh ros', file=sys.stderr)
         return 2
+    except KeyboardInterrupt:  # before the node can listen to it
+        return 0
     return run()
 
 

@@ -27,6 +27,7 @@ from .simulation import checked_rows, thrust_rows
 from .. import checks
 from ..boat.boat import Boat
 from ..boat.state import from_rows, State
+from ..compiled import turned_off
 from ..sea.waves import Water
 
 # Fewer boats than these a thread are done before a second thread has begun.
@@ -57,7 +58,7 @@ class Fleet(Stepped):
         self._start = checked_rows(state, (size,))
         self._engine = Engine(boats, seas, self._start, rate=rate, integrator=integrator,
                               substeps=_for_each(substeps, size))
-        if self._engine.is_plain:
+        if self._engine.is_plain and not turned_off():
             warnings.warn('this fleet is stepped by plain Python, some fifty times slower '
                           'than compiled: pip install "boat_buoyancy[fast]"', RuntimeWarning,
                           stacklevel=2)
