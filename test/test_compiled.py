@@ -115,6 +115,23 @@ def test_without_a_folder_to_write_to_it_compiles_all_the_same(tmp_path):
 
 
 @needs_numba
+def test_a_damaged_cache_costs_a_compilation_and_no_more(tmp_path):
+    code = """
+    from boat_buoyancy.physics import compiled
+    from boat_buoyancy.physics.rotation import rotation_matrix
+    turn = compiled.compile_now(rotation_matrix, (0.0, 0.0, 0.0, 1.0))
+    print(turn is not rotation_matrix, compiled.kind())
+    """
+    cache = {'XDG_CACHE_HOME': str(tmp_path), 'NUMBA_CACHE_DIR': ''}
+    assert python(code, **cache) == (['True', 'compiled'], '')
+    for ending in ('nbi', 'nbc'):
+        path, = tmp_path.rglob(f'*.{ending}')
+        path.write_bytes(path.read_bytes()[:10])
+        for _ in range(2):
+            assert python(code, **cache) == (['True', 'compiled'], '')
+
+
+@needs_numba
 def test_a_change_in_another_file_is_not_missed(tmp_path):
     package, cache = copy_of_package(tmp_path), {'XDG_CACHE_HOME': str(tmp_path / 'cache'),
                                                  'NUMBA_CACHE_DIR': ''}

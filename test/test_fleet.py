@@ -21,7 +21,7 @@ from boat_buoyancy.physics import Boat, Damping, Fleet, Hull, Sea, Simulation, S
 from boat_buoyancy.physics.boat.state import PARTS, State
 from boat_buoyancy.physics.compiled import kind
 from boat_buoyancy.physics.sea.fading import fade
-from boat_buoyancy.physics.stepping import engine
+from boat_buoyancy.physics.stepping import engine, fleet as fleet_module
 from boat_buoyancy.physics.stepping.fleet import LEAST_BOATS
 from boats import (
     all_damping, asymmetric_boat, box_boat, fleet_of, INTEGRATORS, LAWS, random_states, same,
@@ -290,6 +290,7 @@ def test_a_fleet_that_cannot_be_is_refused_in_one_line(changes, says):
 
 def test_a_fleet_in_plain_python_says_what_to_install(monkeypatch):
     monkeypatch.setattr(engine, 'compile_now', lambda function, *arguments: function)
+    monkeypatch.setattr(fleet_module, 'find_spec', lambda name: None)
     with pytest.warns(RuntimeWarning, match=r'pip install "boat_buoyancy\[fast\]"') as caught:
         fleet = Fleet([asymmetric_boat()] * 2, [wind_sea()] * 2, random_states((2,), 1))
     assert len(caught) == 1 and caught[0].filename == __file__

@@ -16,6 +16,7 @@
 
 import math
 from pathlib import Path
+import pickle
 from time import perf_counter
 
 from boat_buoyancy.physics import load_fleet, load_scene, Scene, State
@@ -556,3 +557,17 @@ def test_any_parameters_give_a_scene_that_starts_or_one_line(parameters):
         assert str(error).startswith('substeps: ')
         return
     assert np.isfinite(sim.probe_depths).all()
+
+
+def test_a_scene_that_has_run_can_be_sent_to_another_process():
+    scene = load_scene({'sea.sea_state': 2})
+    scene.simulation().step()
+    one, other = scene.simulation(), pickle.loads(pickle.dumps(scene)).simulation()
+    one.run(1.0), other.run(1.0)
+    assert (one.state.position == other.state.position).all()
+
+
+def test_a_fleet_says_once_what_its_scenes_warn_of_and_of_which():
+    sinks = {'probes.positions': [0.0, 0.0, 0.0], 'probes.floatiness': 0.5}
+    said, = load_fleet([{'probes.positions': [0.0, 0.0, -0.2]}, sinks, dict(sinks)]).warnings[-1:]
+    assert said.startswith('scene 1: The boat sinks')

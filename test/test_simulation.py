@@ -414,3 +414,17 @@ def test_the_error_of_a_run_holds_what_was_done(kind, monkeypatch):
     with pytest.raises(SimulationError) as caught:
         moving.step(rows[0])
     assert caught.value.trajectory is None
+
+
+def test_a_sea_that_is_none_is_refused_and_the_one_before_stays():
+    moving = simulation()
+    before = moving.sea
+    with pytest.raises(AttributeError):
+        moving.sea = 5.0
+    assert moving.sea is before
+    moving.step()
+
+
+def test_every_row_of_none_is_refused_in_one_line():
+    with pytest.raises(ValueError, match='every: expected an integer of at least 1, got 0'):
+        simulation().run(1.0).every(0)

@@ -53,7 +53,7 @@ _ready = {}
 
 def compiled(function=None, *, arithmetic=EXACT):
     """
-    Mark a function for `machine_code`; it calls none but marked functions and math's.
+    Mark a function for `machine_code`; of functions it calls marked ones, math's and min's like.
 
     ``arithmetic`` is EXACT, FUSED or REORDERED.
     """
@@ -139,14 +139,28 @@ def compile_now(function, *arguments):
     if numba() is None:
         return function
     if function not in _ready:
+        types = tuple(numba().typeof(argument) for argument in arguments)
         try:
             _ready[function] = twin = machine_code(function)
-            twin.compile(tuple(numba().typeof(argument) for argument in arguments))
-        except Exception as error:  # Numba's and LLVM's have no base in common
-            _warn(f'Numba {numba().__version__} cannot compile the step '
-                  f'({" ".join(str(error).split())[:200]})')
-            _ready[function] = function
+            twin.compile(types)
+        except Exception:  # Numba's, LLVM's and those of a damaged cache have no base in common
+            _ready[function] = _compiled_without_cache(function, types)
     return _ready[function]
+
+
+def _compiled_without_cache(function, types):
+    """Return the compiled twin of a function for once, or with a warning the function itself."""
+    folder = cache_folder()
+    for damaged in folder.rglob(f'*.{function.__qualname__}-*') if folder else ():
+        damaged.unlink(missing_ok=True)
+    try:
+        twin = _twin(function)
+        twin.compile(types)
+    except Exception as error:
+        _warn(f'Numba {numba().__version__} cannot compile the step '
+              f'({" ".join(str(error).split())[:200]})')
+        return function
+    return twin
 
 
 def _twin(function, cache=False):

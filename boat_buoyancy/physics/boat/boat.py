@@ -14,7 +14,7 @@
 
 """What never changes of a boat: mass, inertia, hull and damping."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import numpy as np
@@ -25,7 +25,7 @@ from .records import boat_record, probe_records, readable
 from .. import checks
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Damping:
     """
     Everything that takes speed away, in body axes; see the parameter table for meaning.
@@ -89,6 +89,10 @@ class Boat:
         object.__setattr__(self, 'center_of_mass', checks.vector(
             'boat.center_of_mass', self.center_of_mass, 3))
         object.__setattr__(self, 'inertia', checked_inertia(self.inertia))
+
+    def __getstate__(self):
+        """Leave out what is derived; it is made again when it is asked for."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def weight(self) -> float:

@@ -26,7 +26,7 @@ from .. import checks
 LAWS = ('spring', 'soft', 'column')
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Hull:
     """
     The probes of a hull, in body axes.

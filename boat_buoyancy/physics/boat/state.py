@@ -39,7 +39,7 @@ class Motion(NamedTuple):
     angular_velocity: tuple
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class State:
     """
     Where a boat is and how it moves: of its centre of mass.

@@ -104,7 +104,7 @@ def body_damping(boat, wetness):
 
 
 @compiled
-def with_quadratic_drag(boat, load, velocity, angular_velocity):
+def with_quadratic_drag(boat, load, body_velocity, angular_velocity):
     """
     Return damping matrix and force with quadratic drag at the speed given, linear in velocity.
 
@@ -114,7 +114,7 @@ def with_quadratic_drag(boat, load, velocity, angular_velocity):
     if boat.has_quadratic == 0:
         return load.damping, load.force
     q = boat.quadratic
-    s, u, w = load.wetness, subtract(velocity, load.water), angular_velocity
+    s, u, w = load.wetness, subtract(body_velocity, load.water), angular_velocity
     drag = (s * q[0] * abs(u[0]), s * q[1] * abs(u[1]), s * q[2] * abs(u[2]))
     spin_drag = (s * q[3] * abs(w[0]), s * q[4] * abs(w[1]), s * q[5] * abs(w[2]))
     return (with_body(load.damping, drag, diagonal(spin_drag)),
@@ -122,7 +122,8 @@ def with_quadratic_drag(boat, load, velocity, angular_velocity):
 
 
 @compiled
-def damping_wrench(damping, velocity, angular_velocity):
+def damping_wrench(damping, body_velocity, angular_velocity):
     """Return C u: the force and torque that damping takes at a velocity, body axes."""
-    return (add(multiply(damping.linear, velocity), cross(angular_velocity, damping.coupling)),
-            add(cross(damping.coupling, velocity), times(damping.angular, angular_velocity)))
+    v, w = body_velocity, angular_velocity
+    return (add(multiply(damping.linear, v), cross(w, damping.coupling)),
+            add(cross(damping.coupling, v), times(damping.angular, w)))

@@ -25,7 +25,7 @@ import numpy as np
 from ..boat.hull import LAWS
 from ..boat.records import readable
 from ..boat.state import center_of_mass_state, State
-from ..compiled import compiled, machine_code
+from ..compiled import compile_now, compiled
 from ..forces.load import load_at
 from ..forces.probe_laws import wetting
 from ..rotation import from_roll_pitch_yaw, rotation_matrix, to_world
@@ -119,11 +119,13 @@ def _floating_height(boat, orientation):
                          + DEEP_HEIGHTS * hull.height))
     above, upright = _above(boat, orientation)
     few = len(above) < MANY_PROBES
-    solve = highest_carrying if few else machine_code(highest_carrying)
+    law = LAWS.index(hull.law)
     probes = [values.tolist() if few else np.array(values)
               for values in (hull.max_force, hull.height, above)]
+    solve = highest_carrying if few else compile_now(
+        highest_carrying, law, *probes, upright, boat.weight, reach)
     # Carrying a little less than the weight, and once more as little.
-    once, twice = (solve(LAWS.index(hull.law), *probes, upright,
+    once, twice = (solve(law, *probes, upright,
                          boat.weight * (1.0 - part * LIFT_TOLERANCE), reach) for part in (1, 2))
     return once + (once - twice)
 

@@ -38,7 +38,7 @@ BREAKING = 1.0 / 7.0
 PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Scene:
     """
     A boat, its sea and its start, and how to step it.
@@ -117,29 +117,35 @@ def load_fleet(scenes: Iterable, *, threads: int | None = None) -> Fleet:
 
     Main arguments: ``scenes``, each a `Scene` or what `load_scene` takes; the same object may
     stand many times.  They have one rate, one integrator and equally many probes.
-    Other arguments: ``threads`` as of `Fleet`.  ValueError says what differs.
+    Other arguments: ``threads`` as of `Fleet`.  ValueError says what differs.  The warnings of
+    the scenes are those of the fleet, with the number of the first scene that each is about.
     """
     scenes = list(scenes)
-    loaded = {}
+    loaded, plans, warnings = {}, {}, {}
     for place, source in enumerate(scenes):
         if id(source) not in loaded:
             try:
-                loaded[id(source)] = source if isinstance(source, Scene) else load_scene(source)
+                scene = source if isinstance(source, Scene) else load_scene(source)
+                loaded[id(source)], plans[id(source)] = scene, scene.plan()
             except ValueError as error:
                 raise ValueError(f'fleet: scene {place}: {error}') from None
-    plans = {key: scene.plan() for key, scene in loaded.items()}
+            for sentence in (*scene.warnings, *plans[id(source)].warnings):
+                warnings.setdefault(sentence, f'scene {place}: {sentence}')
     for name, values in (('rate', {scene.rate for scene in loaded.values()}),
                          ('integrator', {chosen.integrator for chosen in plans.values()})):
         if len(values) > 1:
             raise ValueError(f'fleet: expected scenes of one {name}, got '
-                             f'{" and ".join(map(str, sorted(values)))}; give them the same')
+                             f'{" and ".join(map(str, sorted(values)))}; give them the same '
+                             f'{name}' + ''.join(f' ({said})' for said in warnings.values()
+                                                 if name == 'integrator' and 'substeps' in said))
     each = [loaded[id(source)] for source in scenes]
     if not each:
         raise ValueError('fleet: expected at least one scene, got none')
     start = State(*(np.stack([getattr(scene.start, part) for scene in each]) for part in PARTS))
     return Fleet([scene.boat for scene in each], [scene.sea for scene in each], start,
                  rate=each[0].rate, integrator=plans[id(scenes[0])].integrator,
-                 substeps=[plans[id(source)].substeps for source in scenes], threads=threads)
+                 substeps=[plans[id(source)].substeps for source in scenes], threads=threads,
+                 warnings=tuple(warnings.values()))
 
 
 def scene_from_values(values):

@@ -16,7 +16,8 @@
 A sea that turns into another without a jump: every wave goes from one amplitude to another.
 
 What stays of the old sea fades out while the new one fades in, on a smooth ramp; the change of
-amplitude is part of the water's velocity.
+amplitude is part of the water's velocity.  The surface never jumps; where a third sea comes in
+the middle, the speed at which it rises and sinks does.
 """
 
 from dataclasses import dataclass, replace
@@ -59,7 +60,7 @@ def current(sea, weight):
             sea.current[1] + weight * sea.current_rise[1], 0.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FadingSea(Water):
     """
     A sea that turns into ``new`` from ``start`` s on, over ``duration`` s; made by `fade`.

@@ -84,7 +84,7 @@ class Water:
     """
     What every sea can be asked: its surface and its motion, from its table of waves.
 
-    ``table`` (8, W), see above; ``amplitudes`` (time) and ``currents`` (time) as they are then.
+    ``table`` (8, W), see above; ``amplitudes`` (time) and ``current_at`` (time) as they are then.
     """
 
     def _angle(self, x, y, time):
@@ -111,7 +111,7 @@ class Water:
         return np.concatenate([along + current, up[..., None]], axis=-1)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sea(Water):
     """
     The water surface and its motion, a function of place and time only.
@@ -164,9 +164,11 @@ class Sea(Water):
         """Return the table of waves (8, W) that the step reads."""
         amplitude, _, direction, phase = self.waves.T
         along = self.angular_frequency * self._horizontal_ratio
-        return np.stack([*self.wave_vector.T, self.angular_frequency, phase, amplitude,
-                         np.zeros(len(self.waves)), along * np.cos(direction),
-                         along * np.sin(direction)])
+        table = np.stack([*self.wave_vector.T, self.angular_frequency, phase, amplitude,
+                          np.zeros(len(self.waves)), along * np.cos(direction),
+                          along * np.sin(direction)])
+        table.setflags(write=False)
+        return table
 
     @cached_property
     def record(self) -> np.ndarray:

@@ -28,7 +28,7 @@ import numpy as np
 from .balance import at_rest, Balance, displaced, displacement, drifting, without_damping
 from ..boat.boat import Boat
 from ..boat.state import to_rows
-from ..compiled import calling, compiled, machine_code, numba
+from ..compiled import calling, compile_now, compiled
 from ..forces.load import load_at
 from ..hydrostatics.rest import MANY_PROBES, STILL_WATER
 from ..sea.waves import Sea
@@ -78,10 +78,14 @@ def step_jacobian(balance: Balance, integrator: str, h: float) -> np.ndarray:
     units = balance.units / np.array([1.0] * 3 + [h] * 6)
     depths = [0.0] * len(boat.hull.share)
     records = (*boat.plain_records, *STILL_WATER)
-    compiled_for_many = len(depths) >= MANY_PROBES and numba() is not None
-    if compiled_for_many:
-        sea, depths, advance = Sea(), np.array(depths), machine_code(advance)
-        records = boat.record[()], boat.probe_records, sea.record[()], sea.table
+    compiled_for_many = False
+    if len(depths) >= MANY_PROBES:
+        sea, plain = Sea(), advance
+        arrays = (boat.record[()], boat.probe_records, sea.record[()], sea.table.copy())
+        advance = compile_now(plain, *arrays, start, h, np.array(depths))
+        compiled_for_many = advance is not plain
+        if compiled_for_many:
+            records, depths = arrays, np.array(depths)
 
     def after(move):
         row = displaced(start, move)

@@ -18,6 +18,8 @@ What `Simulation` and `Fleet` share: boats made ready for the step, and the step
 Compiled code works on arrays; plain Python on lists and named tuples of the same numbers.
 """
 
+from concurrent.futures import wait
+
 import numpy as np
 
 from .guard import slowest_reached
@@ -56,7 +58,7 @@ class Engine:
         if len(counts) > 1:
             raise ValueError('fleet: expected boats of equally many probes, got boats of '
                              f'{" and ".join(map(str, sorted(counts)))} probes')
-        size, = np.shape(self.substeps)
+        size = len(self.boats)
         self.failed, self._reached = np.zeros(size, int), np.zeros(size)
         self._rows = np.array(rows, float)
         self._loads, self._depths = np.zeros((size, LOAD_SIZE)), np.zeros((size, *counts))
@@ -107,9 +109,15 @@ class Engine:
         self.failed[chosen] = 0
         self._start(chosen)
 
-    def prepare(self):
-        """Make what was put into ``boats`` and ``seas`` ready for the next step."""
-        self._set_records()
+    def replace(self, boats=None, seas=None):
+        """Go on with other boats or seas; on an error with those before."""
+        before = self.boats, self.seas
+        self.boats, self.seas = boats or self.boats, seas or self.seas
+        try:
+            self._set_records()
+        except Exception:
+            self.boats, self.seas = before
+            raise
         self._start(self._all)
 
     def advance(self, thrust, by_boat, by_period, periods, track=NO_TRACK, depth_track=NO_TRACK):
@@ -118,20 +126,27 @@ class Engine:
 
         Returns how many have failed.
         """
-        first, self.steps = self.steps, self.steps + periods
         if self.is_plain:
-            return self._advance_plain(thrust, by_boat, by_period, first, periods, track,
-                                       depth_track)
-        return self._march(*self._records, *self._memory, thrust, by_boat, by_period, first,
-                           periods, track, depth_track)
+            failed = self._advance_plain(thrust, by_boat, by_period, self.steps, periods, track,
+                                         depth_track)
+        else:
+            failed = self._march(*self._records, *self._memory, thrust, by_boat, by_period,
+                                 self.steps, periods, track, depth_track)
+        self.steps += periods
+        return failed
 
     def advance_parts(self, pool, parts, thrust, by_boat):
         """Advance all boats by one period, slices ``parts`` of them each in a thread of a pool."""
-        first, self.steps = self.steps, self.steps + 1
         # Compiled code lets go of Python's lock.
-        list(pool.map(lambda part: self._march(
-            *self._part(part), thrust[part] if by_boat else thrust, by_boat, 0, first, 1,
-            NO_TRACK, NO_TRACK), parts))
+        futures = [pool.submit(
+            self._march, *self._part(part), thrust[part] if by_boat else thrust, by_boat, 0,
+            self.steps, 1, NO_TRACK, NO_TRACK) for part in parts]
+        try:
+            wait(futures)
+        finally:
+            # Ctrl-C leaves no boat a period behind the others.
+            wait(futures)
+            self.steps += 1
 
     def _part(self, boats):
         """Return records and memory of a slice of the boats, for `march`."""
@@ -157,6 +172,8 @@ class Engine:
                     self.failed[i] = first + j + 1
                     self._begin(*self._records[:5], *self._memory[:3], [i],
                                 (first + j) / self.rate)
+                if self.failed[i]:
+                    break
                 if len(track):
                     track[rows], depth_track[rows] = written, written_depths
         return int(np.count_nonzero(self.failed))

@@ -25,9 +25,9 @@ from ..vectors import subtract, times
 
 
 @compiled
-def net_wrench(damping, force, torque, thrust, velocity, angular_velocity):
+def net_wrench(damping, force, torque, thrust, body_velocity, angular_velocity):
     """Return f - C u: force N and torque N m on a moving boat, thrust and damping included."""
-    drag, drag_torque = damping_wrench(damping, velocity, angular_velocity)
+    drag, drag_torque = damping_wrench(damping, body_velocity, angular_velocity)
     return (subtract(add(force, thrust[0]), drag),
             subtract(add(torque, thrust[1]), drag_torque))
 
@@ -54,9 +54,10 @@ def damped_accelerations(boat, damping, s, force, torque):
 
 
 @compiled
-def explicit_accelerations(boat, load, thrust, velocity, angular_velocity):
+def explicit_accelerations(boat, load, thrust, body_velocity, angular_velocity):
     """Return linear and angular acceleration, body axes, the gyroscopic torque included."""
-    damping, force = with_quadratic_drag(boat, load, velocity, angular_velocity)
-    force, torque = net_wrench(damping, force, load.torque, thrust, velocity, angular_velocity)
+    damping, force = with_quadratic_drag(boat, load, body_velocity, angular_velocity)
+    force, torque = net_wrench(damping, force, load.torque, thrust, body_velocity,
+                               angular_velocity)
     gyroscopic = cross(angular_velocity, times(six(boat.inertia), angular_velocity))
     return damped_accelerations(boat, damping, 0.0, force, subtract(torque, gyroscopic))

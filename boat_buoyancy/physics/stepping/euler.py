@@ -40,28 +40,28 @@ def symplectic_euler(boat, probes, sea, waves, motion, load, thrust, t, h, depth
     First order, one force a step.  d is the rate of retention; all other damping is an explicit
     force in a.  Stable for w h < 2 and d h < 1.
     """
-    velocity, spin = motion.body_velocity, motion.angular_velocity
-    moving, turning = explicit_accelerations(boat, load, thrust, velocity, spin)
+    body_velocity, spin = motion.body_velocity, motion.angular_velocity
+    acceleration, spin_up = explicit_accelerations(boat, load, thrust, body_velocity, spin)
     # The load's damping holds the retention, too: give back what the factor will take.
-    back = retained(boat, load, velocity, spin)
-    velocity = add_scaled(add_scaled(velocity, h, moving), h, back[0])
-    spin = add_scaled(add_scaled(spin, h, turning), h, back[1])
-    lost = retained(boat, load, velocity, spin)
-    velocity, spin = add_scaled(velocity, -h, lost[0]), add_scaled(spin, -h, lost[1])
+    back = retained(boat, load, body_velocity, spin)
+    body_velocity = add_scaled(add_scaled(body_velocity, h, acceleration), h, back[0])
+    spin = add_scaled(add_scaled(spin, h, spin_up), h, back[1])
+    lost = retained(boat, load, body_velocity, spin)
+    body_velocity, spin = add_scaled(body_velocity, -h, lost[0]), add_scaled(spin, -h, lost[1])
 
-    moving = to_world(rotation_matrix(motion.orientation), velocity)
-    position = add_scaled(motion.position, h, moving)
+    velocity = to_world(rotation_matrix(motion.orientation), body_velocity)
+    position = add_scaled(motion.position, h, velocity)
     x, y, z = scale(0.5, spin)
     orientation = normalise(add_scaled_quaternion(
         motion.orientation, h, product(motion.orientation, (x, y, z, 0.0))))
     load = load_at(boat, probes, sea, waves, position, orientation, t + h, depths)
-    return Motion(position, orientation, to_body(rotation_matrix(orientation), moving),
+    return Motion(position, orientation, to_body(rotation_matrix(orientation), velocity),
                   spin), load
 
 
 @compiled
-def retained(boat, load, velocity, spin):
+def retained(boat, load, body_velocity, spin):
     """Return what retention takes a second of a velocity relative to the water, M^-1 D u."""
     drag, spin_drag = retention(boat, load.wetness)
     return damped_accelerations(boat, no_damping(), 0.0, multiply(
-        drag, subtract(velocity, load.water)), times(spin_drag, spin))
+        drag, subtract(body_velocity, load.water)), times(spin_drag, spin))

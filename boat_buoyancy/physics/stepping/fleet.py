@@ -16,8 +16,9 @@
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from importlib.util import find_spec
 import os
-import warnings
+from warnings import warn
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -41,29 +42,28 @@ class Fleet(Stepped):
     Main arguments: ``boats`` and ``seas``, sequences of B `Boat`s of equally many probes and of
     as many seas (one sea may stand many times); ``state`` the start `State` (B,).
     Other arguments: ``rate`` Hz; ``integrator`` a name in `integrators.INTEGRATORS`;
-    ``substeps`` per period, a number or one for each; ``threads``, at most, by default as many as
-    there are processors; a fleet too small to gain stays in one.
+    ``substeps`` per period, a number or one for each; ``warnings`` sentences; ``threads``, at
+    most, by default as many as there are processors; a fleet too small to gain stays in one.
 
     A boat alone and in a fleet, on one thread or more, moves the same to the bit.
     """
 
     def __init__(self, boats: Sequence[Boat], seas: Sequence[Water], state: State, *,
                  rate: float = 100.0, integrator: str = 'leapfrog', substeps: ArrayLike = 1,
-                 threads: int | None = None):
+                 threads: int | None = None, warnings: tuple = ()):
         """Check everything and stand at time 0."""
-        size = len(boats)
+        size, self.warnings = len(boats), tuple(warnings)
         if not size or len(seas) != size:
             raise ValueError('fleet: expected at least one boat, and a sea for each, got '
                              f'{size} boats and {len(seas)} seas')
         self._start = checked_rows(state, (size,))
         self._engine = Engine(boats, seas, self._start, rate=rate, integrator=integrator,
                               substeps=_for_each(substeps, size))
-        if self._engine.is_plain and not turned_off():
-            warnings.warn('this fleet is stepped by plain Python, some fifty times slower '
-                          'than compiled: pip install "boat_buoyancy[fast]"', RuntimeWarning,
-                          stacklevel=2)
-        count = (len(os.sched_getaffinity(0)) if threads is None
-                 else checks.count('threads', threads, at_least=1))
+        # Of a Numba that is there and no good, `compiled` has told.
+        if find_spec('numba') is None and not turned_off():
+            warn('this fleet is stepped by plain Python, some fifty times slower than compiled: '
+                 'pip install "boat_buoyancy[fast]"', RuntimeWarning, stacklevel=2)
+        count = _processors() if threads is None else checks.count('threads', threads, at_least=1)
         count = 1 if self._engine.is_plain else max(1, min(count, size // LEAST_BOATS))
         edges = np.linspace(0, size, count + 1).astype(int).tolist()
         self._parts = [slice(*pair) for pair in zip(edges, edges[1:])]
@@ -99,7 +99,12 @@ class Fleet(Stepped):
 
     @property
     def failed(self) -> np.ndarray:
-        """Return (B,) bool: a boat that left what physics allows stands still from then on."""
+        """
+        Return (B,) bool: the boats that left what physics allows.
+
+        Such a boat stands still from then on: its state and its probe depths stay those of the
+        last period that was good, speed included.
+        """
         return self._engine.failed > 0
 
     def reset(self, which: ArrayLike | None = None) -> None:
@@ -144,3 +149,10 @@ def _for_each(substeps, size):
         raise ValueError(f'substeps: expected a number, or one for each of {size} boats, '
                          f'got {len(substeps)}')
     return np.broadcast_to(substeps, (size,)).tolist()
+
+
+def _processors():
+    """Return how many processors this process may use."""
+    if hasattr(os, 'sched_getaffinity'):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1  # not on Linux

@@ -45,10 +45,10 @@ def implicit(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
     # K+ u, with the speed up that the springs feel: k up.v + l.w.
     sprung = scale(k * dot(up, v) + dot(lever, w), up)
     wrung = add_scaled(times(K, w), dot(up, v), lever)
-    moving, turning = solve_implicit(boat, damping, up, k, lever, K, h, add_scaled(
+    acceleration, spin_up = solve_implicit(boat, damping, up, k, lever, K, h, add_scaled(
         force, -h, sprung), add_scaled(torque, -h, wrung))
-    moving = to_world(R, add_scaled(v, h, moving))
-    spin = add_scaled(w, h, turning)
+    velocity = to_world(R, add_scaled(v, h, acceleration))
+    spin = add_scaled(w, h, spin_up)
 
     orientation, turned = free_rotation(boat, motion.orientation, spin, h)
     # The turns keep angular momentum, not energy; the bound needs energy to be kept, and scaling
@@ -56,9 +56,9 @@ def implicit(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
     inertia = six(boat.inertia)
     before, after = dot(spin, times(inertia, spin)), dot(turned, times(inertia, turned))
     spin = scale(math.sqrt(before / (after + 1e-300)), turned)
-    position = add_scaled(motion.position, h, moving)
+    position = add_scaled(motion.position, h, velocity)
     load = load_at(boat, probes, sea, waves, position, orientation, t + h, depths)
-    return Motion(position, orientation, to_body(rotation_matrix(orientation), moving),
+    return Motion(position, orientation, to_body(rotation_matrix(orientation), velocity),
                   spin), load
 
 

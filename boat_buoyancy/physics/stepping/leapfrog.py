@@ -32,31 +32,31 @@ def leapfrog(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
     Second order, one force a step, no energy drift; stable for w h < 2 at any damping.  The best
     for waves and drops.  The load belongs to the motion returned and is the next step's too.
     """
-    velocity, spin = kick(boat, load, thrust, motion.body_velocity, motion.angular_velocity,
-                          0.5 * h)
-    moving = to_world(rotation_matrix(motion.orientation), velocity)
-    position = add_scaled(motion.position, h, moving)
+    body_velocity, spin = kick(boat, load, thrust, motion.body_velocity,
+                               motion.angular_velocity, 0.5 * h)
+    velocity = to_world(rotation_matrix(motion.orientation), body_velocity)
+    position = add_scaled(motion.position, h, velocity)
     orientation, spin = free_rotation(boat, motion.orientation, spin, h)
 
     load = load_at(boat, probes, sea, waves, position, orientation, t + h, depths)
-    velocity = to_body(rotation_matrix(orientation), moving)
-    velocity, spin = kick(boat, load, thrust, velocity, spin, 0.5 * h)
-    return Motion(position, orientation, velocity, spin), load
+    body_velocity = to_body(rotation_matrix(orientation), velocity)
+    body_velocity, spin = kick(boat, load, thrust, body_velocity, spin, 0.5 * h)
+    return Motion(position, orientation, body_velocity, spin), load
 
 
 @compiled
-def kick(boat, load, thrust, velocity, spin, dt):
+def kick(boat, load, thrust, body_velocity, spin, dt):
     """
-    Return velocity and angular velocity after dt s at one place, by Crank-Nicolson.
+    Return velocity and angular velocity (body axes) after dt s at one place, by Crank-Nicolson.
 
     (M + dt/2 C) (u+ - u) = dt (f - C u): stable at any damping.  Quadratic drag takes the speed at
     the middle of the kick, in two passes, which keeps second order.
     """
-    after = velocity, spin
+    after = body_velocity, spin
     for _ in range(1 + boat.has_quadratic):
         damping, force = with_quadratic_drag(
-            boat, load, scale(0.5, add(velocity, after[0])), scale(0.5, add(spin, after[1])))
-        force, torque = net_wrench(damping, force, load.torque, thrust, velocity, spin)
-        moving, turning = damped_accelerations(boat, damping, 0.5 * dt, force, torque)
-        after = add_scaled(velocity, dt, moving), add_scaled(spin, dt, turning)
+            boat, load, scale(0.5, add(body_velocity, after[0])), scale(0.5, add(spin, after[1])))
+        force, torque = net_wrench(damping, force, load.torque, thrust, body_velocity, spin)
+        acceleration, spin_up = damped_accelerations(boat, damping, 0.5 * dt, force, torque)
+        after = add_scaled(body_velocity, dt, acceleration), add_scaled(spin, dt, spin_up)
     return after

@@ -80,8 +80,7 @@ class Simulation(Stepped):
         if len(boat.hull.share) != len(self.boat.hull.share):
             raise ValueError(f'boat: expected {len(self.boat.hull.share)} probes as before, '
                              f'got {len(boat.hull.share)}')
-        self._engine.boats[0] = boat
-        self._engine.prepare()
+        self._engine.replace(boats=[boat])
 
     @property
     def sea(self) -> Water:
@@ -90,8 +89,7 @@ class Simulation(Stepped):
 
     @sea.setter
     def sea(self, sea: Water):
-        self._engine.seas[0] = sea
-        self._engine.prepare()
+        self._engine.replace(seas=[sea])
 
     @property
     def state(self) -> State:
@@ -148,27 +146,27 @@ class Simulation(Stepped):
         periods = periods_of(duration, self.rate)
         first, rows = self.steps, np.empty((periods + 1, 13))
         depths = np.empty((periods + 1, len(self.boat.hull.share)))
+        time = (first + np.arange(periods + 1)) / self.rate
         rows[0], depths[0] = self._engine.rows[0], self._engine.depths[0]
+        # What a controller does to them counts from the next period on, not for the record.
+        boat, sea = self.boat, self.sea
         given, wrench = callable(thrust), NO_THRUST
         if thrust is not None and not given:
             wrench = thrust_rows(thrust, (6,), (periods, 6))
         by_period = int(len(wrench) > 1)
-        for done in range(0, periods, 1 if given else CHUNK):
-            count = min(1 if given else CHUNK, periods - done)
+        chunk = 1 if given or self._engine.is_plain else CHUNK
+        for done in range(0, periods, chunk):
+            count = min(chunk, periods - done)
             if given:
                 wrench = thrust_rows(thrust(self.time, self.state), (6,))
             push, part = wrench[done * by_period:], slice(done + 1, done + 1 + count)
             if self._engine.advance(push, 0, by_period, count, rows[part], depths[part]):
                 whole = self._engine.failed[0] - first
                 self._fail(wrench[(whole - 1) * by_period],
-                           lambda: self._trajectory(first, rows[:whole], depths[:whole]))
-        return self._trajectory(first, rows, depths)
+                           Trajectory.of(boat, sea, time[:whole], rows[:whole], depths[:whole]))
+        return Trajectory.of(boat, sea, time, rows, depths)
 
-    def _trajectory(self, first, rows, depths):
-        time = (first + np.arange(len(rows))) / self.rate
-        return Trajectory.of(self.boat, self.sea, time, rows, depths)
-
-    def _fail(self, row, trajectory=lambda: None):
+    def _fail(self, row, trajectory=None):
         """Raise the error of a step that left what physics allows, its state kept."""
         engine = self._engine
         number = int(engine.failed[0])
@@ -181,14 +179,14 @@ class Simulation(Stepped):
             f'step {number} of {self.rate:g} Hz ({self.integrator}, substeps {self.substeps}) '
             'made the motion infinite or faster than any force can; the state before is kept: '
             f'{before}; thrust: {row.tolist() if row.any() else "none"}; take more substeps or '
-            'integrator: implicit, then reset', trajectory())
+            'integrator: implicit, then reset', trajectory)
 
 
 def thrust_rows(thrust, *shapes):
     """Return a thrust of one of some shapes as rows (k, 6) of floats; ValueError for another."""
     try:
         given = np.array(thrust, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f'thrust: expected six numbers, got {thrust!r}') from None
     if given.shape not in shapes:
         raise ValueError(f'thrust: expected shape {" or ".join(map(str, shapes))}, '

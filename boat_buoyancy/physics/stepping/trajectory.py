@@ -18,13 +18,14 @@ A run written down: the body frame's motion, the depths of its probes and the wa
 Also as CSV: the columns of the table are named here.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 import os
 from pathlib import Path
 
 import numpy as np
 
+from .. import checks
 from ..boat.state import body_frame, from_rows
 from ..rotation import rotation_matrix, to_roll_pitch_yaw, to_world
 from ..sea.waves import Water
@@ -33,7 +34,7 @@ COLUMNS = ('time', 'x', 'y', 'z', 'qx', 'qy', 'qz', 'qw', 'vx', 'vy', 'vz', 'wx'
 LAST_COLUMNS = ('roll', 'pitch', 'yaw', 'elevation')
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Trajectory:
     """
     A run at its start and after every period, n rows: what a node would publish.
@@ -94,8 +95,9 @@ class Trajectory:
 
     def every(self, number: int) -> 'Trajectory':
         """Return the trajectory with each ``number``-th row only, from the first on."""
-        rows = (getattr(self, field.name)[::number] for field in fields(self)[:-1])
-        return Trajectory(*rows, self.sea)
+        number = checks.count('every', number, at_least=1)
+        return replace(self, **{field.name: getattr(self, field.name)[::number]
+                                for field in fields(self) if field.name != 'sea'})
 
     def to_csv(self, path: str | os.PathLike) -> None:
         """Write one row per period as CSV, every number with all its digits."""
