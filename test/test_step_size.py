@@ -29,7 +29,7 @@ from boat_buoyancy.physics.step_size import limits
 from boat_buoyancy.physics.step_size.balance import at_rest, without_damping
 from boat_buoyancy.physics.step_size.limits import (
     combined_step, is_stable, max_stable_steps, step_jacobian, step_limit)
-from boat_buoyancy.physics.step_size.plan import damping_warnings, plan
+from boat_buoyancy.physics.step_size.plan import plan
 from boat_buoyancy.physics.stepping.simulation import Simulation, SimulationError
 from boat_buoyancy.tools.chart.stability_map import bobbing_boat
 from boats import asymmetric_boat, HEAVE, INTEGRATORS, reference_boat, SQUARE, undamped
@@ -349,10 +349,10 @@ def test_a_shallow_boat_is_told_that_it_will_rattle():
 
 def test_probe_damping_far_above_critical_is_told():
     critical = 2.0 * 1000.0 * HEAVE
-    sentence, = damping_warnings(reference_boat(damping=undamped(probe=10.0 * critical)))
+    sentence, = plan(reference_boat(damping=undamped(probe=10.0 * critical))).warnings
     assert sentence.startswith('Probe damping is 10 times critical in heave')
     assert f'at most {critical:.4g} N s/m' in sentence
-    assert damping_warnings(reference_boat(damping=undamped(probe=critical))) == ()
+    assert plan(reference_boat(damping=undamped(probe=critical))).warnings == ()
 
 
 @pytest.mark.parametrize('options, expected', [

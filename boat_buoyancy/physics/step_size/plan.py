@@ -167,12 +167,8 @@ def _growing(rest, rate, substeps):
             'jumps about; take integrator: leapfrog.')
 
 
-def damping_warnings(boat: Boat) -> tuple[str, ...]:
-    """Return the sentence on a `Boat` with probe damping far above critical, in a tuple."""
-    return _creeping(boat, Equilibrium.of(boat))
-
-
 def _creeping(boat, rest):
+    """Return the sentence on a boat with probe damping far above critical, in a tuple."""
     heave = rest.modes['heave'].angular_frequency
     if heave is None:
         return ()
@@ -181,7 +177,7 @@ def _creeping(boat, rest):
     if ratio < HEAVY_DAMPING:
         return ()
     return (f'Probe damping is {ratio:.3g} times critical in heave: the boat will creep back to '
-            'its draft like a spoon in honey, and waves will drag it along; lower damping.probe '
+            'its draft instead of bobbing, and waves will drag it along; lower damping.probe '
             f'from {boat.damping.probe:.4g} to at most {critical:.4g} N s/m (0.2 to 0.5 of that '
             'is usual).',)
 
