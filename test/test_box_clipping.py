@@ -52,7 +52,7 @@ def placed(triangles, turn, height):
 def modelled(boat, turn, height):
     """Return volume m^3 and centre of buoyancy (3,) m from the centre of mass, world axes."""
     load, depths = still_load(boat, State([0.0, 0.0, height], turn.as_quat()))
-    (record, probes), up = boat.plain_records, turn.as_matrix()[2]
+    (record, probes, *_), up = boat.plain_records, turn.as_matrix()[2]
     lifts, places = [], []
     for probe, depth in zip(probes, depths):
         wet, share = wetting(record.law, probe.height, depth, up[2])

@@ -14,6 +14,7 @@
 
 """One source, plain and compiled: they agree, and what bites about Numba is handled."""
 
+from dataclasses import replace
 from importlib.util import find_spec
 import os
 from pathlib import Path
@@ -26,6 +27,7 @@ import boat_buoyancy
 from boat_buoyancy.physics import compiled
 from boat_buoyancy.physics.boat.records import readable
 from boat_buoyancy.physics.boat.state import to_rows
+from boat_buoyancy.physics.boat.surface import box_surface
 from boat_buoyancy.physics.stepping.integrators import INTEGRATORS
 from boat_buoyancy.physics.stepping.march import begin, LOAD_SIZE, march_by, PACE
 from boat_buoyancy.physics.stepping.speed_bound import SpeedBound
@@ -61,37 +63,43 @@ def python(code, path=PACKAGE.parent, **environment):
     return done.stdout.split(), done.stderr
 
 
-def fleet(law, count=20):
+def fleet(boat, count=20):
     """Return the arguments of `march` for boats thrown about in waves over a current."""
-    boat, sea = asymmetric_boat(law), wind_sea()
-    pace = (2, 50.0, SpeedBound.of(boat, sea).record.item())
-    size = len(boat.hull.share)
+    sea, (corners, triangles) = wind_sea(), boat.panel_rows
+    pace = (0, 0, 2, 50.0, SpeedBound.of(boat, sea).record.item())
     return [np.array([boat.record] * count), np.array([boat.probe_records] * count),
-            np.array([sea.record]), sea.table[None].copy(), np.zeros(count, int),
-            np.array([pace] * count, PACE), to_rows(random_states((count,), 5)),
-            np.zeros((count, LOAD_SIZE)), np.zeros((count, size)), np.full(count, 1e3),
-            np.zeros(count, int)]
+            corners[None].copy(), triangles[None].copy(),
+            np.array([sea.record]), sea.table[None].copy(), np.array([pace] * count, PACE),
+            to_rows(random_states((count,), 5)), np.zeros((count, LOAD_SIZE)),
+            np.zeros((count, len(boat.hull.share))), np.zeros((count, 4, corners.shape[1])),
+            np.full(count, 1e3), np.zeros(count, int)]
+
+
+def panelled(boat):
+    """Return a boat that the pressure on a box lifts, and not its probes."""
+    return replace(boat, hull=replace(
+        boat.hull, panels=box_surface((2.0, 1.5, 0.8)).refined(0.7), specific_weight=1e4))
 
 
 @needs_numba
 @pytest.mark.parametrize('integrator', INTEGRATORS)
 def test_compiled_and_plain_agree_to_round_off(integrator):
     push = (np.array([[300.0, -50.0, 20.0, 10.0, -30.0, 60.0]]), 0, 0, 7, 1)
-    for law in LAWS:
-        arrays = fleet(law)
-        lists = [readable(arrays[0]), readable(arrays[1]), readable(arrays[2]),
-                 arrays[3].tolist(), arrays[4], readable(arrays[5]),
-                 *(values.tolist() for values in arrays[6:9]), arrays[9].copy(),
-                 arrays[10].copy()]
+    boats = [asymmetric_boat(law) for law in LAWS]
+    for boat in (*boats, panelled(boats[0])):
+        arrays = fleet(boat)
+        lists = [*map(readable, arrays[:7]), *(values.tolist() for values in arrays[7:11]),
+                 arrays[11].copy(), arrays[12].copy()]
         track = np.empty((0, 0)), np.empty((0, 0))
         for function, arguments in ((compiled.machine_code(begin), arrays), (begin, lists)):
-            function(*arguments[:5], *arguments[6:9], np.arange(20), 0.14)
+            function(*arguments[:11], np.arange(20), 0.14)
         assert compiled.machine_code(march_by(integrator))(*arrays, *push, *track) == 0
         assert march_by(integrator)(*lists, push[0].tolist(), *push[1:], *track) == 0
         # The states are of order 1; a load is of the order of the weight.
-        np.testing.assert_allclose(arrays[6], lists[6], rtol=0, atol=1e-12)
-        np.testing.assert_allclose(arrays[7], lists[7], rtol=0, atol=1e-12 * 1e4)
-        np.testing.assert_allclose(arrays[8], lists[8], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(arrays[7], lists[7], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(arrays[8], lists[8], rtol=0, atol=1e-12 * 1e4)
+        np.testing.assert_allclose(arrays[9], lists[9], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(arrays[10], lists[10], rtol=0, atol=1e-12)
 
 
 @needs_numba

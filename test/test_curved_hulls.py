@@ -17,7 +17,7 @@
 from dataclasses import replace
 import math
 
-from boat_buoyancy.physics.boat.records import readable
+from boat_buoyancy.physics.boat.records import hull_view, readable
 from boat_buoyancy.physics.forces.load import load_at
 from boat_buoyancy.physics.hydrostatics.rest import rest_state
 from boat_buoyancy.physics.sea.waves import Sea
@@ -174,9 +174,8 @@ def test_fine_columns_feel_the_mean_of_a_wave_over_the_waterplane():
     for wavelength in (10.0, 20.0, 40.0):
         period = 2 * math.pi / math.sqrt(GRAVITY * 2 * math.pi / wavelength)
         sea = Sea([[0.1, period, 0.0, 0.3]])
-        load = load_at(*boat.plain_records, readable(sea.record), sea.table.tolist(),
-                       tuple(rest.position), tuple(rest.orientation), 0.0,
-                       [0.0] * len(boat.hull.share))
+        load = load_at(boat.plain_records[0], hull_view(boat, plain=True), readable(sea.record),
+                       sea.table.tolist(), tuple(rest.position), tuple(rest.orientation), 0.0)
         reach = math.pi / wavelength * BOX.length
         mean = 0.1 * math.cos(0.3) * math.sin(reach) / reach
         assert load.force[2] == pytest.approx(

@@ -260,7 +260,7 @@ def test_a_hull_of_many_probes_is_stepped_as_one_of_few(monkeypatch):
     balance = at_rest(reference_boat(positions=positions.reshape(-1, 3)))
     # Either's round-off, over a displacement of 6e-6.
     compiled = step_jacobian(balance, 'leapfrog', 0.1)
-    monkeypatch.setattr(limits, 'MANY_PROBES', 1000)
+    monkeypatch.setattr(limits, 'MANY_PIECES', 1000)
     assert compiled == pytest.approx(step_jacobian(balance, 'leapfrog', 0.1), abs=1e-9)
 
 

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .hull import Hull
-from .records import boat_record, probe_records, readable
+from .records import boat_record, panel_rows, probe_records, readable
 from .. import checks
 
 
@@ -102,12 +102,17 @@ class Boat:
     @property
     def floatiness(self) -> float:
         """Return the buoyancy budget over the weight, F_max / (m g)."""
-        return float(self.hull.max_force.sum() / self.weight)
+        return self.hull.max_lift / self.weight
 
     @cached_property
     def probe_offsets(self) -> np.ndarray:
         """Return (n, 3) m, the probes from the centre of mass, in body axes."""
         return self.hull.positions - self.center_of_mass
+
+    @property
+    def pieces(self) -> int:
+        """Return how many probes and triangles a force is summed over."""
+        return len(self.hull.share) + self.panel_rows[1].shape[1]
 
     @cached_property
     def record(self) -> np.ndarray:
@@ -120,9 +125,16 @@ class Boat:
         return probe_records(self)
 
     @cached_property
+    def panel_rows(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return corners (3, n) and triangles (3, m) as the compiled step reads them."""
+        return panel_rows(self)
+
+    @cached_property
     def plain_records(self) -> tuple:
-        """Return boat and probes as the step in plain Python reads them."""
-        return readable(self.record), readable(self.probe_records)
+        """Return boat, probes, corners and triangles as the step in plain Python reads them."""
+        corners, triangles = self.panel_rows
+        return (readable(self.record), readable(self.probe_records), corners.tolist(),
+                triangles.tolist())
 
     @cached_property
     def principal(self) -> tuple[np.ndarray, np.ndarray]:

@@ -20,6 +20,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .surface import Surface
 from .. import checks
 
 # Probe laws; the step knows them by their place in this list.
@@ -29,18 +30,23 @@ LAWS = ('spring', 'soft', 'column')
 @dataclass(frozen=True, eq=False)
 class Hull:
     """
-    The probes of a hull, in body axes.
+    The hull: its probes, and its surface where it has one, in body axes.
 
     Main arguments: ``positions`` (n, 3) m; ``max_force`` (n,) N, what each probe gives at most;
     ``height`` (n,) m, the depth at which it does.
     Other arguments: ``law`` is ``spring`` or ``soft`` (a point) or ``column`` (the probe is the
-    bottom of a column of hull of that height).
+    bottom of a column of hull of that height); ``surface``, the closed `Surface` that the probes
+    stand for; ``panels``, a `Surface` on which the water's pressure lifts instead of the probes,
+    in water of ``specific_weight`` rho g in N/m^3.
     """
 
     positions: ArrayLike
     max_force: ArrayLike
     height: ArrayLike
     law: str = 'spring'
+    surface: Surface | None = None
+    panels: Surface | None = None
+    specific_weight: float = 0.0
 
     def __post_init__(self):
         """Store checked, read-only arrays."""
@@ -68,6 +74,13 @@ class Hull:
     def share(self) -> np.ndarray:
         """Return (n,), each probe's part of the budget: weight over sum of weights."""
         return self.max_force / self.max_force.sum()
+
+    @cached_property
+    def max_lift(self) -> float:
+        """Return the buoyancy budget in N, what the hull lifts with all of it under water."""
+        if self.panels is not None:
+            return self.specific_weight * self.panels.volume
+        return float(self.max_force.sum())
 
     @cached_property
     def stiffness(self) -> np.ndarray:

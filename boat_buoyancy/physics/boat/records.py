@@ -21,6 +21,7 @@ of floats, as the fields of NumPy's records cost it a microsecond each.
 
 from collections import namedtuple
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,14 +30,17 @@ from .hull import LAWS
 # Mass kg and weight N; symmetric matrices are xx, yy, zz, xy, xz, yz.  ``moments`` in rising
 # order, their axes the unit vectors ``axis_1`` to ``axis_3``.  Damping: ``probe_damping`` N s/m
 # over all probes; retention in water and in air, force N/(m/s) on the diagonal and torque
-# N m/(rad/s) as a matrix; ``linear`` and ``quadratic`` as `Damping`.
+# N m/(rad/s) as a matrix; ``linear`` and ``quadratic`` as `Damping`.  Of a hull of panels how many
+# corners and triangles, rho g in N/m^3, most lift N, and how far m its farthest corner is; else 0.
 BOAT = np.dtype([
     ('mass', 'f8'), ('weight', 'f8'), ('center_of_mass', 'f8', 3), ('inertia', 'f8', 6),
     ('moments', 'f8', 3), ('axis_1', 'f8', 3), ('axis_2', 'f8', 3), ('axis_3', 'f8', 3),
     ('law', 'i8'), ('probe_damping', 'f8'),
     ('water_retention', 'f8', 3), ('water_spin_retention', 'f8', 6),
     ('air_retention', 'f8', 3), ('air_spin_retention', 'f8', 6),
-    ('linear', 'f8', 6), ('quadratic', 'f8', 6), ('has_quadratic', 'i8')])
+    ('linear', 'f8', 6), ('quadratic', 'f8', 6), ('has_quadratic', 'i8'),
+    ('corners', 'i8'), ('triangles', 'i8'), ('specific_weight', 'f8'), ('max_lift', 'f8'),
+    ('reach', 'f8')])
 # Place m, most lift N, depth m at which it is reached, and share of the budget.
 PROBE = np.dtype([('x', 'f8'), ('y', 'f8'), ('z', 'f8'), ('max_force', 'f8'), ('height', 'f8'),
                   ('share', 'f8')])
@@ -44,16 +48,35 @@ PROBE = np.dtype([('x', 'f8'), ('y', 'f8'), ('z', 'f8'), ('max_force', 'f8'), ('
 SYMMETRIC = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
+class HullView(NamedTuple):
+    """
+    A hull as the step reads it, and what it writes of it.
+
+    Read: ``probes`` (n,) records of `PROBE`; ``corners``, rows x, y, z in m, and ``triangles``,
+    rows of the numbers of their first, second and third corners, of a hull of panels.
+    Written: ``depths`` (n,) m of the probes; ``places`` of the corners, rows x, y, z from the
+    centre of mass in world axes and depth, m.
+    """
+
+    probes: object
+    corners: object
+    triangles: object
+    depths: object
+    places: object
+
+
 def boat_record(boat):
     """Return a `Boat` as a record of `BOAT`."""
     water, air = boat.retention_damping
     moments, axes = boat.principal
-    quadratic = boat.damping.quadratic
+    quadratic, hull, (corners, triangles) = boat.damping.quadratic, boat.hull, boat.panel_rows
+    reach = np.linalg.norm(corners, axis=0).max(initial=0.0)
     return np.array((
         boat.mass, boat.weight, boat.center_of_mass, symmetric(boat.inertia),
-        moments, *axes.T, LAWS.index(boat.hull.law), boat.damping.probe,
+        moments, *axes.T, LAWS.index(hull.law), boat.damping.probe,
         np.diag(water)[:3], symmetric(water[3:, 3:]), np.diag(air)[:3], symmetric(air[3:, 3:]),
-        boat.damping.linear, quadratic, quadratic.any()), BOAT)
+        boat.damping.linear, quadratic, quadratic.any(), corners.shape[1], triangles.shape[1],
+        hull.specific_weight, hull.max_lift, reach), BOAT)
 
 
 def probe_records(boat):
@@ -64,6 +87,24 @@ def probe_records(boat):
     records['max_force'], records['height'], records['share'] = (
         hull.max_force, hull.height, hull.share)
     return records
+
+
+def panel_rows(boat):
+    """Return corners (3, n) m and triangles (3, m) of the panels of a `Boat`, see `HullView`."""
+    panels = boat.hull.panels
+    if panels is None:
+        return np.zeros((3, 0)), np.zeros((3, 0), np.int64)
+    return ((panels.corners - boat.center_of_mass).T.copy(), panels.triangles.T.copy())
+
+
+def hull_view(boat, plain):
+    """Return the `HullView` of a `Boat`: lists and named tuples for ``plain`` Python, or arrays."""
+    corners, triangles = boat.panel_rows
+    depths, places = np.zeros(len(boat.hull.share)), np.zeros((4, corners.shape[1]))
+    if plain:
+        return HullView(boat.plain_records[1], *boat.plain_records[2:], depths.tolist(),
+                        places.tolist())
+    return HullView(boat.probe_records, corners, triangles, depths, places)
 
 
 def symmetric(matrix):

@@ -14,6 +14,7 @@
 
 """Buoyancy: each probe lifts straight up, by its law and its part of the budget."""
 
+from .pressure import pressure_stiffness
 from .probe_laws import arm, slope, wetting
 from ..compiled import compiled
 from ..vectors import add_scaled, add_scaled_matrix, cross, dot, outer, scale, ZERO
@@ -32,21 +33,24 @@ def buoyancy(law, probe, wet, share, up):
 
 
 @compiled
-def lift_stiffness(boat, probes, depths, up):
+def lift_stiffness(boat, hull, R):
     """
-    Return K+, the positive part of the stiffness of the lift, body axes.
+    Return K+, the positive part of the stiffness of the lift, body axes, of a boat turned by R.
 
     K+ = sum k_i g_i g_i^T, g_i = (up, p_i x up), over the probes on the slope of their law, k_i
     N/m and p_i the point of force; and, for a boat hung below its points of force, the pendulum
     max(0, sum F_i p_i.up) (1 - up up^T) in the torque.  Returned as k, l, T: force block
-    k up up^T, coupling l up^T (torque rows), torque block T (6).
+    k up up^T, coupling l up^T (torque rows), torque block T (6).  Read from what `load_at` wrote.
     """
+    if boat.triangles > 0:
+        return pressure_stiffness(boat, hull, R)
+    up = R[2]
     k, swing, lever, torque = 0.0, 0.0, ZERO, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    for i in range(len(probes)):
-        probe = probes[i]
-        wet, share = wetting(boat.law, probe.height, depths[i], up[2])
+    for i in range(len(hull.probes)):
+        probe, depth = hull.probes[i], hull.depths[i]
+        wet, share = wetting(boat.law, probe.height, depth, up[2])
         place = (probe.x, probe.y, probe.z + arm(boat.law, probe.height, wet, up[2]))
-        stiffness = probe.max_force * slope(boat.law, probe.height, depths[i], up[2])
+        stiffness = probe.max_force * slope(boat.law, probe.height, depth, up[2])
         around = cross(place, up)
         k += stiffness
         lever = add_scaled(lever, stiffness, around)

@@ -24,13 +24,13 @@ from .buoyancy import buoyancy
 from .damping import (body_damping, DampingMatrix, no_damping, probe_damping, ramped, with_body,
                       with_point)
 from .gravity import gravity
+from .pressure import pressure
 from .probe_laws import wetting
 from ..compiled import compiled
 from ..rotation import rotation_matrix, to_body, to_world
 from ..sea.fading import current, ramp
 from ..sea.waves import surface
 from ..vectors import add, add_scaled, cross, multiply, scale, ZERO
-
 
 class Load(NamedTuple):
     """
@@ -49,28 +49,33 @@ class Load(NamedTuple):
 
 
 @compiled
-def load_at(boat, probes, sea, waves, position, orientation, t, depths):
+def load_at(boat, hull, sea, waves, position, orientation, t):
     """
-    Return the `Load` at a place, an orientation and a time, and write ``depths`` (n,) in m.
+    Return the `Load` at a place, an orientation and a time, and write what `HullView` says.
 
-    F = sum F_i up - m g up + sum c_i s_i v_water,i + s D v_water, s the wetness; the damping
-    -C u of the boat's own velocity is left to the integrator.
+    F = lift up - m g up + sum c_i s_i v_water,i + s D v_water, s the wetness; the lift is that of
+    the probes, or of pressure on the triangles of a hull that has some.  The damping -C u of the
+    boat's own velocity is left to the integrator.
     """
     R = rotation_matrix(orientation)
     up = R[2]
     weight, rate = ramp(sea, t)
     stream = current(sea, weight)
     force, torque, water, wetness, damping = gravity(boat, up), ZERO, ZERO, 0.0, no_damping()
-    for i in range(len(probes)):
-        probe = probes[i]
+    if boat.triangles > 0:
+        lift, turn = pressure(boat, hull, sea, waves, R, position, t, weight)
+        force, torque = add(force, lift), turn
+    for i in range(len(hull.probes)):
+        probe = hull.probes[i]
         r = (probe.x, probe.y, probe.z)
         x, y, z = add(position, to_world(R, r))
         eta, orbital = surface(waves, sea.waves, x, y, t, weight, rate)
-        depths[i] = depth = eta - z
+        hull.depths[i] = depth = eta - z
         wet, share = wetting(boat.law, probe.height, depth, up[2])
 
-        lift, turn = buoyancy(boat.law, probe, wet, share, up)
-        force, torque = add(force, lift), add(torque, turn)
+        if boat.triangles == 0:
+            lift, turn = buoyancy(boat.law, probe, wet, share, up)
+            force, torque = add(force, lift), add(torque, turn)
 
         # The probe's own damping pulls along with the water.
         flow = to_body(R, add(orbital, stream))

@@ -23,7 +23,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..boat.hull import LAWS
-from ..boat.records import readable
+from ..boat.records import hull_view, readable
 from ..boat.state import center_of_mass_state, State
 from ..compiled import compile_now, compiled
 from ..forces.load import load_at
@@ -37,8 +37,8 @@ STILL_WATER = readable(Sea().record), Sea().table.tolist()
 LIFT_TOLERANCE = 1e-12
 # A soft probe at this many heights is full to the last digit.
 DEEP_HEIGHTS = 40.0
-# From so many probes on, compiling costs less than plain Python does.
-MANY_PROBES = 200
+# From so many probes and triangles on, compiling costs less than plain Python does.
+MANY_PIECES = 200
 # Halvings of a bracket at most; in most cases the last digit comes sooner.
 HALVINGS = 100
 
@@ -72,10 +72,10 @@ def rest_state(boat, roll=0.0, pitch=0.0, yaw=0.0, x=0.0, y=0.0):
 
 def still_load(boat, state):
     """Return the `Load` on a boat at one `State` in still water, and its probes' depths (n,) m."""
-    depths = [0.0] * len(boat.hull.share)
-    load = load_at(*boat.plain_records, *STILL_WATER, state.position.tolist(),
-                   state.orientation.tolist(), 0.0, depths)
-    return load, np.array(depths)
+    hull = hull_view(boat, plain=True)
+    load = load_at(boat.plain_records[0], hull, *STILL_WATER, state.position.tolist(),
+                   state.orientation.tolist(), 0.0)
+    return load, np.array(hull.depths)
 
 
 def draft(boat, state):
@@ -118,7 +118,7 @@ def _floating_height(boat, orientation):
     reach = float(np.max(np.linalg.norm(boat.probe_offsets, axis=1)
                          + DEEP_HEIGHTS * hull.height))
     above, upright = _above(boat, orientation)
-    few = len(above) < MANY_PROBES
+    few = len(above) < MANY_PIECES
     law = LAWS.index(hull.law)
     probes = [values.tolist() if few else np.array(values)
               for values in (hull.max_force, hull.height, above)]

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import checks
-from ..compiled import compiled, REORDERED
+from ..compiled import compiled, FUSED, REORDERED
 from ..trigonometry import sine_cosine
 
 MAX_COMPONENTS = 1000
@@ -59,6 +59,23 @@ def surface(waves, number, x, y, t, weight, rate):
         v += amplitude * along_y[j] * cosine
         w += amplitude * frequency[j] * sine + rate * rise[j] * cosine
     return eta, (u, v, w)
+
+
+@compiled(arithmetic=FUSED)
+def add_elevation(waves, number, origin, x, y, points, t, weight, heights):
+    """
+    Add the height of the water in m, as of `surface`, at many places to ``heights`` (n,).
+
+    ``x`` and ``y`` (n,) m from ``origin``, of which the first ``points`` count.
+    """
+    kx, ky, frequency, phase = waves[KX], waves[KY], waves[FREQUENCY], waves[PHASE]
+    for j in range(number):
+        amplitude = waves[START][j] + weight * waves[RISE][j]
+        along, across = kx[j], ky[j]
+        here = along * origin[0] + across * origin[1] - frequency[j] * t + phase[j]
+        for i in range(points):
+            _, cosine = sine_cosine(along * x[i] + across * y[i] + here)
+            heights[i] += amplitude * cosine
 
 
 def wavenumber(angular_frequency, depth=0.0, gravity=9.81):

@@ -27,10 +27,11 @@ import numpy as np
 
 from .balance import at_rest, Balance, displaced, displacement, drifting, without_damping
 from ..boat.boat import Boat
+from ..boat.records import hull_view
 from ..boat.state import to_rows
 from ..compiled import calling, compile_now, compiled
 from ..forces.load import load_at
-from ..hydrostatics.rest import MANY_PROBES, STILL_WATER
+from ..hydrostatics.rest import MANY_PIECES, STILL_WATER
 from ..sea.waves import Sea
 from ..stepping.integrators import INTEGRATORS
 from ..stepping.leapfrog import leapfrog as step
@@ -58,11 +59,11 @@ class StepLimit:
 
 
 @compiled
-def one_step(boat, probes, sea, waves, row, h, depths):
+def one_step(boat, hull, sea, waves, row, h):
     """Advance a row (13) by one step of h s from time 0, without thrust."""
     motion = read_motion(row)
-    load = load_at(boat, probes, sea, waves, motion.position, motion.orientation, 0.0, depths)
-    motion, load = step(boat, probes, sea, waves, motion, load, (ZERO, ZERO), 0.0, h, depths)
+    load = load_at(boat, hull, sea, waves, motion.position, motion.orientation, 0.0)
+    motion, load = step(boat, hull, sea, waves, motion, load, (ZERO, ZERO), 0.0, h)
     write_motion(motion, row)
 
 
@@ -76,21 +77,20 @@ def step_jacobian(balance: Balance, integrator: str, h: float) -> np.ndarray:
     boat, start, advance = balance.boat, to_rows(balance.state), calling(
         one_step, step=INTEGRATORS[integrator].step)
     units = balance.units / np.array([1.0] * 3 + [h] * 6)
-    depths = [0.0] * len(boat.hull.share)
-    records = (*boat.plain_records, *STILL_WATER)
+    records = (boat.plain_records[0], hull_view(boat, plain=True), *STILL_WATER)
     compiled_for_many = False
-    if len(depths) >= MANY_PROBES:
+    if boat.pieces >= MANY_PIECES:
         sea, plain = Sea(), advance
-        arrays = (boat.record[()], boat.probe_records, sea.record[()], sea.table.copy())
-        advance = compile_now(plain, *arrays, start, h, np.array(depths))
+        arrays = (boat.record[()], hull_view(boat, plain=False), sea.record[()], sea.table.copy())
+        advance = compile_now(plain, *arrays, start, h)
         compiled_for_many = advance is not plain
         if compiled_for_many:
-            records, depths = arrays, np.array(depths)
+            records = arrays
 
     def after(move):
         row = displaced(start, move)
         row = row if compiled_for_many else row.tolist()
-        advance(*records, row, h, depths)
+        advance(*records, row, h)
         return displacement(start, np.array(row))
 
     return np.stack([(after(move) - after(-move)) / (2.0 * balance.small * units)

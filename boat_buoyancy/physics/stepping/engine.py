@@ -64,12 +64,12 @@ class Engine:
         self._loads, self._depths = np.zeros((size, LOAD_SIZE)), np.zeros((size, *counts))
         self.is_plain = False
         self._set_records()
-        self._march = compile_now(
-            march_by(integrator), *self._records, *self._memory, NO_THRUST, 0, 0, 0, 1,
-            NO_TRACK, NO_TRACK)
-        self._begin = compile_now(begin, *self._records[:5], *self._memory[:3], self._all, 0.0)
-        if self._march is march_by(integrator) or self._begin is begin:
-            self.is_plain, self._march, self._begin = True, march_by(integrator), begin
+        march = march_by(integrator)
+        self._march = compile_now(march, *self._records, *self._memory, NO_THRUST, 0, 0, 0, 1,
+                                  NO_TRACK, NO_TRACK)
+        self._begin = compile_now(begin, *self._records, *self._memory[:4], self._all, 0.0)
+        if self._march is march or self._begin is begin:
+            self.is_plain, self._march, self._begin = True, march, begin
             self._rows, self._loads, self._depths = (
                 values.tolist() for values in (self._rows, self._loads, self._depths))
             self._set_records()
@@ -150,8 +150,8 @@ class Engine:
 
     def _part(self, boats):
         """Return records and memory of a slice of the boats, for `march`."""
-        fleet, probes, seas, waves, sea_of, paces = self._records
-        return (fleet[boats], probes[boats], seas, waves, sea_of[boats], paces[boats],
+        fleet, probes, corners, triangles, seas, waves, paces = self._records
+        return (fleet[boats], probes[boats], corners, triangles, seas, waves, paces[boats],
                 *(values[boats] for values in self._memory))
 
     def _advance_plain(self, thrust, by_boat, by_period, first, periods, track, depth_track):
@@ -170,7 +170,7 @@ class Engine:
                 except ArithmeticError:
                     # A division by nothing, or a number too large for one.
                     self.failed[i] = first + j + 1
-                    self._begin(*self._records[:5], *self._memory[:3], [i],
+                    self._begin(*self._records, *self._memory[:4], [i],
                                 (first + j) / self.rate)
                 if self.failed[i]:
                     break
@@ -180,7 +180,8 @@ class Engine:
 
     @property
     def _memory(self):
-        return self._rows, self._loads, self._depths, self._reached, self.failed
+        return (self._rows, self._loads, self._depths, self._places, self._reached,
+                self.failed)
 
     @property
     def _all(self):
@@ -188,33 +189,49 @@ class Engine:
 
     def _set_records(self):
         """Write boats and seas as the records of `march`."""
-        different = list({id(sea): sea for sea in self.seas}.values())
-        places = {id(sea): place for place, sea in enumerate(different)}
-        most = max(sea.table.shape[1] for sea in different)
-        # Tables of seas with fewer are filled up; no step reads that.
-        waves = np.zeros((len(different), 8, most))
-        for table, sea in zip(waves, different):
-            table[:, :sea.table.shape[1]] = sea.table
+        seas, sea_of = different(self.seas)
+        panelled, panels_of = different(self.boats)
         bounds = [SpeedBound.of(boat, sea) for boat, sea in zip(self.boats, self.seas)]
-        records = [np.array([boat.record for boat in self.boats]),
-                   np.array([boat.probe_records for boat in self.boats]),
-                   np.array([sea.record for sea in different])]
-        paces = np.array([(number, self.rate, bound.record.item())
-                          for number, bound in zip(self.substeps, bounds)], PACE)
-        if self.is_plain:
-            records, waves, paces = map(readable, records), waves.tolist(), readable(paces)
-        self._records = (*records, waves, np.array([places[id(sea)] for sea in self.seas]), paces)
+        paces = np.array([(*pace, self.rate, bound.record.item()) for *pace, bound in zip(
+            sea_of, panels_of, self.substeps, bounds)], PACE)
+        records = (
+            np.array([boat.record for boat in self.boats]),
+            np.array([boat.probe_records for boat in self.boats]),
+            *map(padded, zip(*(self.boats[i].panel_rows for i in panelled))),
+            np.array([self.seas[i].record for i in seas]),
+            padded([self.seas[i].table for i in seas]), paces)
+        places = np.zeros((len(self.boats), 4, records[2].shape[2]))
+        self._places = places.tolist() if self.is_plain else places
+        self._records = tuple(map(readable, records)) if self.is_plain else records
         self._bounds = bounds
 
     def _start(self, chosen):
         """Compute loads and depths of some boats, and from which speed the guard counts."""
-        self._begin(*self._records[:5], *self._memory[:3], chosen, self.time)
+        self._begin(*self._records, *self._memory[:4], chosen, self.time)
         with np.errstate(over='ignore'):
             for i in chosen:
                 bound, boat = self._bounds[i], self.boats[i]
                 v, w = np.split(np.asarray(self._rows[i])[7:], 2)
                 self._reached[i] = max(np.sqrt(boat.mass * v @ v + w @ boat.inertia @ w),
                                        slowest_reached(bound, 1.0 / self.rate))
+
+
+def different(things):
+    """Return the places of the first of each different thing, and which of them each one is."""
+    first = {}
+    which = [first.setdefault(id(thing), (len(first), place))[0]
+             for place, thing in enumerate(things)]
+    return [place for _, place in first.values()], which
+
+
+def padded(tables):
+    """Return tables (3 or 8, n) of different lengths as one array; no step reads what is added."""
+    tables = list(tables)
+    whole = np.zeros((len(tables), len(tables[0]), max(table.shape[1] for table in tables)),
+                     tables[0].dtype)
+    for place, table in zip(whole, tables):
+        place[:, :table.shape[1]] = table
+    return whole
 
 
 class Stepped:

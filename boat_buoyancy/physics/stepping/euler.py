@@ -25,15 +25,14 @@ from ..vectors import add_scaled, multiply, scale, subtract, times
 
 
 @compiled
-def euler(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
+def euler(boat, hull, sea, waves, motion, load, thrust, t, h):
     """Return motion and load after h s, both from the old rates: never stable, for study."""
     motion = moved(motion, rate_of(boat, load, thrust, motion), h)
-    return motion, load_at(boat, probes, sea, waves, motion.position, motion.orientation, t + h,
-                           depths)
+    return motion, load_at(boat, hull, sea, waves, motion.position, motion.orientation, t + h)
 
 
 @compiled
-def symplectic_euler(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
+def symplectic_euler(boat, hull, sea, waves, motion, load, thrust, t, h):
     """
     Return motion and load after h s of the plain game loop: v += a h; v *= 1 - d h; x += v h.
 
@@ -54,7 +53,7 @@ def symplectic_euler(boat, probes, sea, waves, motion, load, thrust, t, h, depth
     x, y, z = scale(0.5, spin)
     orientation = normalise(add_scaled_quaternion(
         motion.orientation, h, product(motion.orientation, (x, y, z, 0.0))))
-    load = load_at(boat, probes, sea, waves, position, orientation, t + h, depths)
+    load = load_at(boat, hull, sea, waves, position, orientation, t + h)
     return Motion(position, orientation, to_body(rotation_matrix(orientation), velocity),
                   spin), load
 

@@ -29,7 +29,7 @@ from ..vectors import (add_scaled, add_scaled_matrix, diagonal, dot, factor, out
 
 
 @compiled
-def implicit(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
+def implicit(boat, hull, sea, waves, motion, load, thrust, t, h):
     """
     Return motion and load after h s of (M + h C + h^2 K+) u+ = M u + h f, then a drift.
 
@@ -41,7 +41,7 @@ def implicit(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
     up = R[2]
     damping, force = with_quadratic_drag(boat, load, v, w)
     force, torque = net_wrench(damping, force, load.torque, thrust, v, w)
-    k, lever, K = lift_stiffness(boat, probes, depths, up)
+    k, lever, K = lift_stiffness(boat, hull, R)
     # K+ u, with the speed up that the springs feel: k up.v + l.w.
     sprung = scale(k * dot(up, v) + dot(lever, w), up)
     wrung = add_scaled(times(K, w), dot(up, v), lever)
@@ -57,7 +57,7 @@ def implicit(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
     before, after = dot(spin, times(inertia, spin)), dot(turned, times(inertia, turned))
     spin = scale(math.sqrt(before / (after + 1e-300)), turned)
     position = add_scaled(motion.position, h, velocity)
-    load = load_at(boat, probes, sea, waves, position, orientation, t + h, depths)
+    load = load_at(boat, hull, sea, waves, position, orientation, t + h)
     return Motion(position, orientation, to_body(rotation_matrix(orientation), velocity),
                   spin), load
 

@@ -28,10 +28,10 @@ class Integrator:
     """
     An integrator.
 
-    ``step`` (boat, probes, sea, waves, motion, load, thrust, t, h, depths) -> (motion, load) after
-    h s from t: ``boat``, ``probes`` (n,) and ``sea`` records, ``waves`` a table; ``motion`` a
-    `Motion`, ``load`` that of its own place and time; ``thrust`` force N and torque N m about the
-    centre of mass, body axes; ``depths`` (n,) m, read and written.
+    ``step`` (boat, hull, sea, waves, motion, load, thrust, t, h) -> (motion, load) after h s from
+    t: ``boat`` and ``sea`` records, ``hull`` a `HullView`, read and written, ``waves`` a table;
+    ``motion`` a `Motion`, ``load`` that of its own place and time; ``thrust`` force N and torque
+    N m about the centre of mass, body axes.
     ``order`` on smooth motion; ``evaluations`` of the force a step.
     """
 

@@ -25,7 +25,7 @@ from ..vectors import add, add_scaled, scale
 
 
 @compiled
-def leapfrog(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
+def leapfrog(boat, hull, sea, waves, motion, load, thrust, t, h):
     """
     Return motion and load after h s.
 
@@ -38,7 +38,7 @@ def leapfrog(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
     position = add_scaled(motion.position, h, velocity)
     orientation, spin = free_rotation(boat, motion.orientation, spin, h)
 
-    load = load_at(boat, probes, sea, waves, position, orientation, t + h, depths)
+    load = load_at(boat, hull, sea, waves, position, orientation, t + h)
     body_velocity = to_body(rotation_matrix(orientation), velocity)
     body_velocity, spin = kick(boat, load, thrust, body_velocity, spin, 0.5 * h)
     return Motion(position, orientation, body_velocity, spin), load

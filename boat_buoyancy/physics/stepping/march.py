@@ -16,7 +16,7 @@
 The step of many boats by many periods, in one call: what is compiled.
 
 What changes of a boat are rows of floats (arrays when compiled, lists in plain Python): the state
-(13), the load (22) at its place and time, and the depths of its probes.
+(13), the load (22) at its place and time, and what a `HullView` has of it.
 """
 
 import numpy as np
@@ -25,36 +25,40 @@ from .guard import is_possible, speed_reached
 from .integrators import INTEGRATORS
 from .leapfrog import leapfrog as step
 from .speed_bound import BOUND
+from ..boat.records import HullView
 from ..boat.state import Motion
 from ..compiled import calling, compiled
 from ..forces.damping import DampingMatrix
 from ..forces.load import Load, load_at
 from ..vectors import cross, subtract, three
 
-# How a boat is stepped: integrator steps per period, the rate in Hz of periods, and the bound that
-# the guard holds its speed to.
-PACE = np.dtype([('substeps', 'i8'), ('rate', 'f8'), ('bound', BOUND)])
+# How a boat is stepped: on which sea, with which panels, integrator steps per period, the rate in
+# Hz of periods, and the bound that the guard holds its speed to.
+PACE = np.dtype([('sea', 'i8'), ('panels', 'i8'), ('substeps', 'i8'), ('rate', 'f8'),
+                 ('bound', BOUND)])
 STATE_SIZE, LOAD_SIZE = 13, 22
 
 
 @compiled
-def march(boats, probes, seas, waves, sea_of, paces, states, loads, depths, reached, failed,
-          thrust, by_boat, by_period, first, periods, track, depth_track):
+def march(boats, probes, corners, triangles, seas, waves, paces, states, loads, depths, places,
+          reached, failed, thrust, by_boat, by_period, first, periods, track, depth_track):
     """
     Advance every boat by some periods; return how many of them have failed.
 
     Main arguments: records of ``boats`` (B,), ``probes`` (B, n), ``seas`` (S,), ``paces`` (B,);
-    ``waves`` S tables; ``sea_of`` (B,) which sea is whose.  Rows that change: ``states``,
-    ``loads``, ``depths`` (B, n), ``reached`` (B,) |u|_M, ``failed`` (B,), the number of
-    the period in which a boat failed, or 0: it stands still from then on, in its last good state.
+    ``corners`` and ``triangles`` of P panelled hulls; ``waves`` S tables.  Rows that change:
+    ``states``, ``loads``, ``depths`` and ``places`` of each boat, ``reached`` (B,) |u|_M,
+    ``failed`` (B,), the number of the period in which a boat failed, or 0: it stands still from
+    then on, in its last good state.
     Other arguments: ``thrust`` (k, 6) N and N m, body axes, at the body origin; row
     i by_boat + j by_period is boat i's in period j; ``first``, periods done before;
     ``track`` (periods, 13) and ``depth_track`` (periods, n) are written for the only boat, or
     empty.
     """
     for i in range(len(boats)):
-        boat, hull, pace, depth = boats[i], probes[i], paces[i], depths[i]
-        sea, table = seas[sea_of[i]], waves[sea_of[i]]
+        boat, pace, depth = boats[i], paces[i], depths[i]
+        sea, table = seas[pace.sea], waves[pace.sea]
+        hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels], depth, places[i])
         state, memory, greatest = states[i], loads[i], float(reached[i])
         motion, load = read_motion(state), read_load(memory)
         h = 1.0 / (pace.rate * pace.substeps)
@@ -65,8 +69,7 @@ def march(boats, probes, seas, waves, sea_of, paces, states, loads, depths, reac
             after, load_after = motion, load
             for k in range(pace.substeps):
                 t = ((first + j) * pace.substeps + k) / (pace.rate * pace.substeps)
-                after, load_after = step(boat, hull, sea, table, after, load_after, push, t, h,
-                                         depth)
+                after, load_after = step(boat, hull, sea, table, after, load_after, push, t, h)
                 greatest = speed_reached(pace.bound, greatest, push, h)
                 if not is_possible(pace.bound, greatest, after):
                     failed[i] = first + j + 1
@@ -74,7 +77,7 @@ def march(boats, probes, seas, waves, sea_of, paces, states, loads, depths, reac
             if failed[i] != 0:
                 # The depths were written over: those of the last good state, to be read again.
                 load_at(boat, hull, sea, table, motion.position, motion.orientation,
-                        (first + j) / pace.rate, depth)
+                        (first + j) / pace.rate)
                 break
             motion, load, reached[i] = after, load_after, greatest
             if len(track) > 0:
@@ -95,12 +98,15 @@ def march_by(integrator):
 
 
 @compiled
-def begin(boats, probes, seas, waves, sea_of, states, loads, depths, chosen, t):
+def begin(boats, probes, corners, triangles, seas, waves, paces, states, loads, depths, places,
+          chosen, t):
     """Compute loads and depths of the boats ``chosen`` (k,) at their places and t s."""
     for i in chosen:
-        motion = read_motion(states[i])
-        write_load(load_at(boats[i], probes[i], seas[sea_of[i]], waves[sea_of[i]],
-                           motion.position, motion.orientation, t, depths[i]), loads[i])
+        motion, pace = read_motion(states[i]), paces[i]
+        hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels], depths[i],
+                        places[i])
+        write_load(load_at(boats[i], hull, seas[pace.sea], waves[pace.sea], motion.position,
+                           motion.orientation, t), loads[i])
 
 
 @compiled

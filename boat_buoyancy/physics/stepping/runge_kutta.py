@@ -23,7 +23,7 @@ STAGES = ((0.5, 2.0), (0.5, 2.0), (1.0, 1.0))
 
 
 @compiled
-def rk4(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
+def rk4(boat, hull, sea, waves, motion, load, thrust, t, h):
     """
     Return motion and load after h s: y+ = y + h/6 (k1 + 2 k2 + 2 k3 + k4).
 
@@ -33,10 +33,8 @@ def rk4(boat, probes, sea, waves, motion, load, thrust, t, h, depths):
     k = total = rate_of(boat, load, thrust, motion)
     for part, weight in STAGES:
         stage = moved(motion, k, part * h)
-        load = load_at(boat, probes, sea, waves, stage.position, stage.orientation, t + part * h,
-                       depths)
+        load = load_at(boat, hull, sea, waves, stage.position, stage.orientation, t + part * h)
         k = rate_of(boat, load, thrust, stage)
         total = add_rates(total, weight, k)
     motion = moved(motion, total, h / 6.0)
-    return motion, load_at(boat, probes, sea, waves, motion.position, motion.orientation, t + h,
-                           depths)
+    return motion, load_at(boat, hull, sea, waves, motion.position, motion.orientation, t + h)

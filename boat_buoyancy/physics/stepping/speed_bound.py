@@ -58,18 +58,22 @@ class SpeedBound:
     def of(cls, boat, sea):
         """Return the bound of a `Boat` on a `Sea`."""
         hull, damping, water = boat.hull, boat.damping, sea.fastest_water
-        reach = np.linalg.norm(boat.probe_offsets, axis=1)
-        if hull.law == 'column':
-            # The force acts somewhere between the bottom of the column and its top.
-            top = boat.probe_offsets + hull.height[:, None] * [0.0, 0.0, 1.0]
-            reach = np.maximum(reach, np.linalg.norm(top, axis=1))
+        if hull.panels is not None:
+            torque = hull.max_lift * float(boat.record['reach'])
+        else:
+            reach = np.linalg.norm(boat.probe_offsets, axis=1)
+            if hull.law == 'column':
+                # The force acts somewhere between the bottom of the column and its top.
+                top = boat.probe_offsets + hull.height[:, None] * [0.0, 0.0, 1.0]
+                reach = np.maximum(reach, np.linalg.norm(top, axis=1))
+            torque = float(hull.max_force @ reach)
         rates = damping.rates
         drag = float(rates.min())
         quarter = 0.25 * water ** 2
         quadratic = float(damping.quadratic[:3].max())
         return cls(
-            force=float(hull.max_force.sum() + boat.weight + drag * boat.mass * water),
-            torque=float(hull.max_force @ reach),
+            force=float(hull.max_lift + boat.weight + drag * boat.mass * water),
+            torque=torque,
             mass=boat.mass, least_moment=float(boat.principal[0][0]), drag=drag,
             power=quarter * (damping.probe + boat.mass * (float(rates[:, :3].max()) - drag)
                              + float(damping.linear[:3].max()) + quadratic * water),

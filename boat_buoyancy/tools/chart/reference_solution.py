@@ -28,7 +28,7 @@ from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from ...physics.boat.boat import Boat
-from ...physics.boat.records import readable
+from ...physics.boat.records import hull_view, readable
 from ...physics.boat.state import Motion, State
 from ...physics.compiled import compile_now
 from ...physics.forces.damping import RAMP
@@ -81,13 +81,14 @@ class Equations:
 
     def __init__(self, boat: Boat, sea: Water):
         """Make boat and sea ready for the force functions, compiled where Numba is installed."""
-        self.boat, probes = boat.plain_records
+        self.boat = boat.plain_records[0]
         self.law, self.height = boat.hull.law, boat.hull.height
-        self._depths = np.zeros(len(probes))
-        self._records = (boat.record[()], boat.probe_records, sea.record[()], sea.table)
-        self._load_at = compile_now(load_at, *self._records, ZERO, UPRIGHT, 0.0, self._depths)
+        self._hull = hull_view(boat, plain=False)
+        self._records = (boat.record[()], self._hull, sea.record[()], sea.table)
+        self._load_at = compile_now(load_at, *self._records, ZERO, UPRIGHT, 0.0)
         if self._load_at is load_at:
-            self._records = (self.boat, probes, readable(sea.record), sea.table.tolist())
+            self._hull = hull_view(boat, plain=True)
+            self._records = (self.boat, self._hull, readable(sea.record), sea.table.tolist())
 
     def _motion(self, time, values):
         """Return the `Motion` of y, and the `Load` there; writes the probes' depths."""
@@ -96,7 +97,7 @@ class Equations:
         velocity = to_body(rotation_matrix(orientation), moving[:3])
         motion = Motion((x, y, z), orientation, velocity, tuple(moving[3:]))
         return motion, self._load_at(*self._records, motion.position, motion.orientation,
-                                     float(time), self._depths)
+                                     float(time))
 
     def derivative(self, time, values):
         """Return y' (13,)."""
@@ -113,7 +114,7 @@ class Equations:
         motion, load = self._motion(time, values)
         upright = rotation_matrix(motion.orientation)[2][2]
         # The wet length in m, not clipped to the height that there is.
-        wet, height, attitude = self._depths, self.height, []
+        wet, height, attitude = np.array(self._hull.depths), self.height, []
         if self.law == 'column':
             wet = (wet - height * min(upright, 0.0)) / max(abs(upright), MIN_UPRIGHT)
             attitude = [upright, upright - MIN_UPRIGHT, upright + MIN_UPRIGHT]
