@@ -20,7 +20,8 @@ from boat_buoyancy.physics.boat.columns import box_hull
 from boat_buoyancy.physics.boat.state import State
 from boat_buoyancy.physics.boat.surface import box_surface
 from boat_buoyancy.physics.forces.probe_laws import arm, wetting
-from boat_buoyancy.physics.hydrostatics.rest import rest_state, still_load
+from boat_buoyancy.physics.hydrostatics.rest import floating_state
+from boat_buoyancy.physics.hydrostatics.stiffness import still_load
 from boat_buoyancy.physics.hydrostatics.righting_arm import righting_arms
 import numpy as np
 from scipy.optimize import brentq
@@ -106,7 +107,7 @@ def test_a_box_floats_where_its_clipped_volume_carries_it():
         surface = surface_of(size, keel_to_mass)
         mass = 1025.0 * submerged(placed(surface, turn, height))[0]
         roll, pitch, yaw = turn.as_euler('xyz')
-        state = rest_state(boat_of(size, keel_to_mass, mass), roll, pitch, yaw)
+        state = floating_state(boat_of(size, keel_to_mass, mass), roll, pitch, yaw)
         assert abs(state.position[2] - height) < 1e-12 * np.max(size)
 
 

@@ -19,13 +19,14 @@ from boat_buoyancy.physics.boat.columns import box_hull
 from boat_buoyancy.physics.boat.state import State
 from boat_buoyancy.physics.hydrostatics.natural_modes import (
     equilibrium_stiffness, highest_damping_rate, highest_frequency, modes)
-from boat_buoyancy.physics.hydrostatics.rest import rest_state
+from boat_buoyancy.physics.hydrostatics.rest import rest_attitude, rest_state
 from boat_buoyancy.physics.rotation import from_roll_pitch_yaw, to_roll_pitch_yaw
 from boat_buoyancy.physics.sea.waves import Sea
 from boats import (asymmetric_boat, box_boat, crossings, HEAVE, LAWS, reference_boat, simulate,
                    SQUARE, undamped)
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from textbook import wrench
 
 pytestmark = pytest.mark.plain
@@ -39,17 +40,16 @@ def test_the_stiffness_at_rest_is_the_slope_of_the_force(law):
         force = []
         for sign in (1.0, -1.0):
             nudge = sign * size * np.eye(6)[column]
-            orientation = np.array(from_roll_pitch_yaw(*nudge[3:]))
-            push, twist = wrench(boat, Sea(), 0.0, rest.position + nudge[:3], orientation,
+            turned = Rotation.from_rotvec(nudge[3:]) * Rotation.from_quat(rest.orientation)
+            push, twist = wrench(boat, Sea(), 0.0, rest.position + nudge[:3], turned.as_quat(),
                                  np.zeros(3), np.zeros(3))
-            force.append(np.concatenate([push, twist]))
+            force.append(np.concatenate([push, turned.apply(twist)]))
         measured[:, column] = (force[1] - force[0]) / (2.0 * size)
     expected = equilibrium_stiffness(boat)
-    # The symmetric part in heave, roll and pitch: a list that is not in equilibrium adds more.
-    block = measured[2:5, 2:5]
     # Round-off of the difference: a few 1e-16 of the weight over 2e-6.
     assert expected[2:5, 2:5] == pytest.approx(
-        0.5 * (block + block.T), rel=1e-6, abs=1e-9 * boat.weight)
+        measured[2:5, 2:5], rel=1e-6, abs=1e-9 * boat.weight)
+    assert np.abs(rest_attitude(boat)).min() > 0.01
     assert not expected[:2].any() and not expected[5].any()
 
 
@@ -108,7 +108,8 @@ def test_a_swing_dies_out_by_the_predicted_damping_ratio():
 def test_coupled_modes_keep_the_name_of_what_moves_most():
     found = modes(asymmetric_boat())
     assert set(found) == {'heave', 'roll', 'pitch'}
-    assert found['heave'].angular_frequency == pytest.approx(HEAVE, rel=0.01)
+    # At 4 degrees of list and trim it heaves nearly as it would level.
+    assert found['heave'].angular_frequency == pytest.approx(HEAVE, rel=0.03)
 
 
 def test_the_fastest_oscillation_counts_a_boat_hung_below_its_probes():

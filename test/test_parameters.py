@@ -27,12 +27,12 @@ import pytest
 
 DEFAULT = Path(__file__).parents[1] / 'config' / 'default.yaml'
 KINDS = {'float': float, 'int': int, 'bool': bool, 'string': str, 'float_array': tuple,
-         'int_array': tuple}
+         'int_array': tuple, 'path': str}
 DERIVED = {'boat.inertia', 'hull.bottom', 'probes.positions', 'probes.weights', 'probes.law',
-           'damping.probe', 'sea.waves'}
+           'damping.probe', 'sea.waves', 'hull.spacing', 'hull.mesh', 'start.orientation'}
 # With these there is nothing to raise.
 NO_NUMBER = {'integrator', 'world_frame', 'body_frame', 'publish_clock', 'hull.shape',
-             'probes.law'}
+             'hull.model', 'hull.mesh', 'probes.law'}
 # What the node may change while it runs.
 LIVE = ('boat.mass', 'boat.inertia', 'probes.floatiness', 'probes.stiffness', 'probes.weights',
         'damping.', 'sea.', 'thrust.timeout')
@@ -134,6 +134,8 @@ def wrong_values(parameter):
         return [0, 1, 1.0, 'true', 'yes', None, [True]]
     if parameter.kind == 'string':
         return ['', True, 5, None, ['leapfrog'], 'no such/ word', '/slash', 'a\tb']
+    if parameter.kind == 'path':
+        return ['', ' ', True, 5, None, ['hull.stl']]
     numbers = [math.nan, math.inf, -math.inf, True, '1', 'word', None, 10 ** 400, {}]
     if parameter.kind.startswith('int'):
         numbers += [1.0, 1.5, 10 ** 30]
@@ -207,7 +209,8 @@ def test_the_default_file_gives_every_default():
     given = {name: tuple(value) if isinstance(value, list) else value
              for name, value in parameter_file.read(DEFAULT).items()}
     assert given == {name: parameter.default for name, parameter in PARAMETERS.items()
-                     if parameter.default is not None and not name.startswith('probes.')}
+                     if parameter.default is not None and not name.startswith('probes.')
+                     and name != 'hull.scale'}
     assert load_scene(DEFAULT).values == load_scene({}).values
 
 
@@ -223,8 +226,14 @@ def test_the_lines_left_out_of_the_default_file_show_what_is_derived():
     assert list(shown) == list(PARAMETERS)
     example = {name: shown.pop(name) for name in list(shown)
                if name.startswith('probes.') and name != 'probes.law' or name == 'sea.waves'}
+    # What only another shape than the default one has.
+    other = {name: shown.pop(name) for name in ('hull.spacing', 'hull.mesh', 'hull.scale')}
+    assert other['hull.scale'] == PARAMETERS['hull.scale'].default
+    twin = load_scene({'hull.shape': 'twin', 'hull.spacing': other['hull.spacing']})
+    assert np.abs(twin.boat.hull.positions[:, 1]).min() > 0.5
+    assert (DEFAULT.parent / other['hull.mesh']).exists()
     default = load_scene({})
-    for name in DERIVED - set(example):
+    for name in DERIVED - set(example) - set(other):
         derived = default.values[name]
         if isinstance(derived, tuple):
             derived = pytest.approx(derived[:len(shown[name])], rel=1e-4)

@@ -41,7 +41,8 @@ from .thrust import read_wrench
 from .wave_messages import WavesInput, WavesOutput
 from ..physics.compiled import notice
 from ..physics.scene.parameters import NODE_NAME
-from ..physics.scene.scene import scene_from_values, sea_warnings
+from ..physics.scene.remarks import sea_warnings
+from ..physics.scene.scene import scene_from_values
 from ..physics.stepping.march import march_by
 
 IDLE = 0.05  # s between looks at the signals and clocks when nothing is due

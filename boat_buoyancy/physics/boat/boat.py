@@ -14,7 +14,7 @@
 
 """What never changes of a boat: mass, inertia, hull and damping."""
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from .hull import Hull
 from .records import boat_record, panel_rows, probe_records, readable
 from .. import checks
+from ..sea.waves import Water
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +109,19 @@ class Boat:
     def probe_offsets(self) -> np.ndarray:
         """Return (n, 3) m, the probes from the centre of mass, in body axes."""
         return self.hull.positions - self.center_of_mass
+
+    def on(self, sea: Water) -> 'Boat':
+        """Return the boat with panels as fine as a sea needs them; itself where they are."""
+        if self.hull.panels is None:
+            return self
+        hull = self.hull.panelled(sea)
+        return self if hull is self.hull else replace(self, hull=hull)
+
+    @cached_property
+    def size(self) -> float:
+        """Return how far in m the farthest end of a probe or corner is from the centre of mass."""
+        return float(max(np.max(np.linalg.norm(self.probe_offsets, axis=1) + self.hull.height),
+                         self.record['reach']))
 
     @property
     def pieces(self) -> int:

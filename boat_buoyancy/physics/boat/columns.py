@@ -38,4 +38,8 @@ def box_hull(size, bottom, probes, *, specific_weight, law='column'):
     positions = np.stack([x.ravel(), y.ravel(), np.full(x.size, float(bottom))], axis=1)
     volume = length * beam * depth
     return Hull(positions, specific_weight * volume * weights,
-                np.full(x.size, float(depth)), law)
+                np.full(x.size, float(depth)), law, specific_weight=specific_weight)
+
+
+def columns_of(surface, probes, volume):
+    raise NotImplementedError

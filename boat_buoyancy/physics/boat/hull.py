@@ -14,17 +14,23 @@
 
 """The hull: probes that sample the water and share the buoyancy budget."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .surface import Surface
 from .. import checks
+from ..sea.waves import Water
 
 # Probe laws; the step knows them by their place in this list.
 LAWS = ('spring', 'soft', 'column')
+# Panels on the length of a wave, which leave 1 % of error where the pressure is worst.
+PANELS_A_WAVE = 8
+# More panels than these cost milliseconds a step.
+MAX_PANELS = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +43,8 @@ class Hull:
     Other arguments: ``law`` is ``spring`` or ``soft`` (a point) or ``column`` (the probe is the
     bottom of a column of hull of that height); ``surface``, the closed `Surface` that the probes
     stand for; ``panels``, a `Surface` on which the water's pressure lifts instead of the probes,
-    in water of ``specific_weight`` rho g in N/m^3.
+    in water of ``specific_weight`` rho g in N/m^3; ``panel_size`` m, the longest edge of a panel
+    that was asked for, 0 = as the sea needs it.
     """
 
     positions: ArrayLike
@@ -47,6 +54,7 @@ class Hull:
     surface: Surface | None = None
     panels: Surface | None = None
     specific_weight: float = 0.0
+    panel_size: float = 0.0
 
     def __post_init__(self):
         """Store checked, read-only arrays."""
@@ -69,6 +77,25 @@ class Hull:
                              f'probe, got heights {self.height.tolist()}')
         if self.law not in LAWS:
             raise ValueError(f'probes.law: expected one of {", ".join(LAWS)}, got {self.law!r}')
+
+    def panelled(self, sea: Water) -> 'Hull':
+        """
+        Return the hull with its surface as panels, as fine as asked for or as a sea needs them.
+
+        By itself an eighth of the sea's shortest wave that counts, in still water the facets that
+        the surface has; never more than `MAX_PANELS`.  The hull itself where it has them already.
+        """
+        longest = self.panel_size or sea.shortest_length / PANELS_A_WAVE
+        panels = self.surface.refined(max(longest, self.finest_panel))
+        if self.panels is not None and len(self.panels.triangles) == len(panels.triangles):
+            return self
+        return replace(self, panels=panels)
+
+    @property
+    def finest_panel(self) -> float:
+        """Return the longest edge in m of about `MAX_PANELS` panels on the surface."""
+        # A triangle whose edges are halved until none is too long has some 0.2 of its square.
+        return math.sqrt(self.surface.area / (0.2 * MAX_PANELS))
 
     @cached_property
     def share(self) -> np.ndarray:

@@ -98,7 +98,7 @@ def panel_rows(boat):
 
 
 def hull_view(boat, plain):
-    """Return the `HullView` of a `Boat`: lists and named tuples for ``plain`` Python, or arrays."""
+    """Return the `HullView` of a `Boat`: arrays, or lists and named tuples for plain Python."""
     corners, triangles = boat.panel_rows
     depths, places = np.zeros(len(boat.hull.share)), np.zeros((4, corners.shape[1]))
     if plain:

@@ -26,8 +26,8 @@ class Surface:
     """
     A closed surface of triangles in body axes.
 
-    ``corners`` (n, 3) m; ``triangles`` (m, 3), the numbers of three corners each, counter-clockwise
-    seen from outside.  Several closed shells, one beside the other, are one surface.
+    ``corners`` (n, 3) m; ``triangles`` (m, 3), the numbers of three corners each,
+    counter-clockwise seen from outside.  Several closed shells side by side are one surface.
     """
 
     corners: ArrayLike

@@ -32,6 +32,7 @@ from ..sea.fading import current, ramp
 from ..sea.waves import surface
 from ..vectors import add, add_scaled, cross, multiply, scale, ZERO
 
+
 class Load(NamedTuple):
     """
     Force and damping of one place and time.

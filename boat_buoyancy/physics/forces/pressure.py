@@ -141,18 +141,9 @@ def pressure_stiffness(boat, hull, R):
     """
     Return K+, the positive part of the stiffness of pressure, as `lift_stiffness` has it.
 
-    K+ = rho g integral(g g^T) dA over the waterplane, g = (up, p x up): its area and moments are
-    those of the wet triangles seen from below.  Read from the places that `pressure` wrote.
+    K+ = rho g integral(g g^T) dA over the waterplane, g = (up, p x up).
     """
-    first, second, third = hull.triangles[0], hull.triangles[1], hull.triangles[2]
-    sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    for i in range(boat.triangles):
-        count, a, b, c, d = wet_part(hull.places, first[i], second[i], third[i])
-        if count > 0:
-            sums = add_waterplane(sums, a, b, c)
-        if count > 1:
-            sums = add_waterplane(sums, a, c, d)
-    area, along, across, xx, yy, xy, swing = sums
+    area, along, across, xx, yy, xy, swing = waterplane_sums(boat, hull)
     if not area > 0.0:
         area = along = across = xx = yy = xy = 0.0
     # About the middle of the waterplane; in waves the triangles may leave less than nothing.
@@ -174,9 +165,28 @@ def pressure_stiffness(boat, hull, R):
 
 
 @compiled
-def add_waterplane(sums, a, b, c):
+def waterplane_sums(boat, hull):
     """
-    Return area, moments x, y, xx, yy, xy of a waterplane and z of its volume, a triangle added.
+    Return a waterplane's area, its moments x, y, xx, yy, xy, and the moment z of the wet volume.
+
+    From the centre of mass in world axes, in powers of m, at the places that `pressure` wrote.
+    The waterplane has the outline of the wet triangles, so they have its moments, seen from below.
+    """
+    first, second, third = hull.triangles[0], hull.triangles[1], hull.triangles[2]
+    sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    for i in range(boat.triangles):
+        count, a, b, c, d = wet_part(hull.places, first[i], second[i], third[i])
+        if count > 0:
+            sums = add_outline(sums, a, b, c)
+        if count > 1:
+            sums = add_outline(sums, a, c, d)
+    return sums
+
+
+@compiled
+def add_outline(sums, a, b, c):
+    """
+    Return the sums of `waterplane_sums` with a triangle added.
 
     integral(x y) = A / 12 (sum x_i y_i + sum x sum y); the volume over the triangle lies at half
     its depth over it: integral((z + d / 2) d).

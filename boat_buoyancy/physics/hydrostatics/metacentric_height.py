@@ -20,10 +20,10 @@ from .rest import floats
 
 def metacentric_heights(boat):
     """
-    Return the transverse and longitudinal metacentric heights GM in m, level and at rest.
+    Return the transverse and longitudinal metacentric heights GM in m of a boat at rest.
 
-    The slope of the righting arm at no heel and no trim, free to rise and sink.  None, None for
-    a boat that does not float.
+    The slope of the righting arms there, free to rise and sink.  None, None for a boat that does
+    not float.
     """
     if not floats(boat):
         return None, None

@@ -15,8 +15,8 @@
 """
 A boat at rest as a linear system: stiffness, damping, and the modes of heave, roll and pitch.
 
-Everything is about the centre of mass with the boat level, in the order surge, sway, heave,
-roll, pitch, yaw.
+Everything is about the centre of mass, along the axes of a boat that lies level with its heading
+along x, in the order surge, sway, heave, roll, pitch, yaw.
 """
 
 from dataclasses import dataclass
@@ -25,10 +25,9 @@ from itertools import permutations
 
 import numpy as np
 
-from .rest import rest_state
-from ..boat.hull import LAWS
-from ..forces.damping import RAMP
-from ..forces.probe_laws import arm, slope, wetting
+from .rest import in_air, rest_state, under_water
+from .stiffness import hydrostatic_stiffness, still_load
+from ..rotation import rotation_matrix
 
 MODES = ('heave', 'roll', 'pitch')
 # The coordinates that still water pushes back against: heave, roll, pitch.
@@ -52,11 +51,11 @@ class Mode:
 @dataclass(frozen=True)
 class Equilibrium:
     """
-    The linear system M a + C u + K x = 0 of a boat lying level in still water.
+    The linear system M a + C u + K x = 0 of a boat at rest in still water.
 
     All (6, 6): ``mass`` M; ``stiffness`` K; ``surface_stiffness`` K+, every probe at the surface;
     ``damping`` C at the draft, ``wet_damping`` with every probe under water, ``air_damping`` with
-    none; ``retention`` and ``wet_retention`` what retention gives of the first two.
+    none.
     """
 
     mass: np.ndarray
@@ -65,36 +64,22 @@ class Equilibrium:
     damping: np.ndarray
     wet_damping: np.ndarray
     air_damping: np.ndarray
-    retention: np.ndarray
-    wet_retention: np.ndarray
 
     @classmethod
     @lru_cache(maxsize=64)
     def of(cls, boat):
-        """Return the system of a `Boat` at the height where it carries its own weight."""
-        hull = boat.hull
-        depth = -(rest_state(boat).position[2] + boat.probe_offsets[:, 2])
-        law, probes = LAWS.index(hull.law), list(zip(hull.height.tolist(), depth.tolist()))
-        wet, share = np.transpose([wetting(law, *probe, 1.0) for probe in probes])
-        stiffness = hull.max_force * [slope(law, *probe, 1.0) for probe in probes]
-        lift = hull.max_force * share
-        above = boat.probe_offsets[:, 2] + [
-            arm(law, height, part, 1.0) for height, part in zip(hull.height.tolist(), wet)]
-        # A force that stays upright while its point of attack swings out rights or upsets.
-        swing = float(lift @ above)
-        ramp = np.minimum(wet / RAMP, 1.0)
-        submersion = float(hull.share @ ramp)
-        water, air = boat.retention_damping
-        retention = submersion * water + (1.0 - submersion) * air
-        linear = np.diag(boat.damping.linear)
-        lift_stiffness = _lift_stiffness(boat, stiffness)
-        return cls(
-            mass=boat.mass_matrix,
-            stiffness=lift_stiffness + np.diag([0.0, 0.0, 0.0, swing, swing, 0.0]),
-            surface_stiffness=_lift_stiffness(boat, hull.stiffness),
-            damping=retention + submersion * linear + _probe_damping(boat, ramp),
-            wet_damping=water + linear + _probe_damping(boat, np.ones(len(ramp))),
-            air_damping=air, retention=retention, wet_retention=water)
+        """Return the system of a `Boat` where it lies at rest."""
+        rest, stiffness = rest_state(boat), np.zeros((6, 6))
+        stiffness[RESTORED, RESTORED] = hydrostatic_stiffness(boat, rest)
+        x, y, _ = boat.probe_offsets.T
+        zero, one = np.zeros(len(x)), np.ones(len(x))
+        rows = np.stack([zero, zero, one, y, -x, zero])
+        surface_stiffness = rows * boat.hull.stiffness @ rows.T
+        damping = (damping_matrix(still_load(boat, state)[0].damping)
+                   for state in (rest, under_water(boat), in_air(boat)))
+        mass, surface_stiffness, *damping = (
+            levelled(matrix, rest) for matrix in (boat.mass_matrix, surface_stiffness, *damping))
+        return cls(mass, stiffness, surface_stiffness, *damping)
 
     @cached_property
     def modes(self):
@@ -122,19 +107,13 @@ class Equilibrium:
 
 
 def equilibrium_stiffness(boat):
-    """
-    Return K_eq (6, 6) of a boat lying level in still water, N/m, N and N m per m and rad.
-
-    K = sum k_i g_i g_i^T + diag(0, 0, 0, 1, 1, 0) sum F_i z_i over the probes, k_i the slope of
-    a probe's force with depth, g_i = (0, 0, 1, y_i, -x_i, 0) and z_i the height of its point of
-    attack, all from the centre of mass: hydrostatic stiffness with the metacentric height in it.
-    """
+    """Return K (6, 6) of a boat at rest, N/m, N and N m per m and rad: `hydrostatic_stiffness`."""
     return Equilibrium.of(boat).stiffness
 
 
 def modes(boat):
     """
-    Return {'heave': `Mode`, 'roll': `Mode`, 'pitch': `Mode`} of a boat lying level.
+    Return {'heave': `Mode`, 'roll': `Mode`, 'pitch': `Mode`} of a boat at rest.
 
     Coupled modes take the name of the coordinate that holds most of their kinetic energy.  The
     damping ratio is that of the mode's own shape, phi^T C phi / (2 omega phi^T M phi).
@@ -181,19 +160,16 @@ def _square_root(matrix):
     return vectors @ np.diag(np.sqrt(values)) @ vectors.T
 
 
-def _lift_stiffness(boat, stiffness):
-    """Return sum k_i g_i g_i^T for ``stiffness`` (n,) N/m."""
-    x, y, _ = boat.probe_offsets.T
-    zero, one = np.zeros(len(x)), np.ones(len(x))
-    rows = np.stack([zero, zero, one, y, -x, zero])
-    return rows * stiffness @ rows.T
+def levelled(matrix, state):
+    """Return a matrix (6, 6) of body axes along the axes of the world, of a boat at a `State`."""
+    turned = np.kron(np.eye(2), rotation_matrix(state.orientation.tolist()))
+    return turned @ matrix @ turned.T
 
 
-def _probe_damping(boat, ramp):
-    """Return sum c_i s_i J_i^T J_i, J_i = [1, -r_i x], for the wetness ``ramp`` (n,)."""
-    matrix = np.zeros((6, 6))
-    for weight, (x, y, z) in zip(boat.damping.probe * boat.hull.share * ramp,
-                                 boat.probe_offsets):
-        jacobian = np.hstack([np.eye(3), [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]])
-        matrix += weight * jacobian.T @ jacobian
-    return matrix
+def damping_matrix(damping):
+    """Return C (6, 6) of a `DampingMatrix`: force -linear v - w x S, torque -S x v - angular w."""
+    x, y, z = damping.coupling
+    xx, yy, zz, xy, xz, yz = damping.angular
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.block([[np.diag(damping.linear), -cross],
+                     [cross, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])]])

@@ -13,25 +13,24 @@
 # limitations under the License.
 
 """
-Where a boat rests in still water.
+Where a boat lies at rest in still water.
 
 Computed with the forces of the simulation itself, so that it says what the simulation will do.
 """
 
 from functools import lru_cache
+import math
 
 import numpy as np
 
+from .stiffness import hydrostatic_stiffness, still_load
+from ..boat.clipping import level_for
 from ..boat.hull import LAWS
-from ..boat.records import hull_view, readable
 from ..boat.state import center_of_mass_state, State
 from ..compiled import compile_now, compiled
-from ..forces.load import load_at
 from ..forces.probe_laws import wetting
-from ..rotation import from_roll_pitch_yaw, rotation_matrix, to_world
-from ..sea.waves import Sea
+from ..rotation import from_roll_pitch_yaw, product, rotation_matrix, to_roll_pitch_yaw, to_world
 
-STILL_WATER = readable(Sea().record), Sea().table.tolist()
 # Lifts that differ by less than this part of the weight are one lift: a plateau of full and dry
 # probes that carries exactly the weight must not be lost to round-off.
 LIFT_TOLERANCE = 1e-12
@@ -41,6 +40,13 @@ DEEP_HEIGHTS = 40.0
 MANY_PIECES = 200
 # Halvings of a bracket at most; in most cases the last digit comes sooner.
 HALVINGS = 100
+# A lever below this part of the boat's size is round-off and lists no boat.
+NEGLIGIBLE = 1e-9
+# Turns in rad towards rest: at most this much at a time, at rest when no longer than that.
+LONGEST_TURN, SHORTEST_TURN = 0.2, 1e-13
+MAX_TURNS = 200
+# The cosine between mast and vertical below which a boat has turned over.
+TURNED_OVER = 0.5
 
 
 def floats(boat):
@@ -48,7 +54,48 @@ def floats(boat):
     return boat.floatiness > 1.0 + LIFT_TOLERANCE
 
 
-def rest_state(boat, roll=0.0, pitch=0.0, yaw=0.0, x=0.0, y=0.0):
+def rest_state(boat, yaw=0.0, x=0.0, y=0.0):
+    """
+    Return the `State` at which a boat lies in still water, with its list and its trim.
+
+    ``yaw`` rad and ``x``, ``y`` m, the body origin in the world; numbers.  Found from level, the
+    way the boat would go: level itself where that is a balance, even one that the least push
+    ends.  Level, too, where there is no draft, and where no balance is found.
+    """
+    roll, pitch = rest_attitude(boat) or (0.0, 0.0)
+    return floating_state(boat, roll, pitch, yaw, x, y)
+
+
+@lru_cache(maxsize=64)
+def rest_attitude(boat):
+    """Return roll and pitch in rad at which a boat lies at rest, or None where it finds none."""
+    if not floats(boat):
+        return 0.0, 0.0
+    orientation, before, longest = (0.0, 0.0, 0.0, 1.0), np.zeros(2), LONGEST_TURN
+    for turns in range(MAX_TURNS):
+        state = State(np.array([0.0, 0.0, _floating_height(boat, orientation)]), orientation)
+        torque = np.array(to_world(rotation_matrix(orientation),
+                                   still_load(boat, state)[0].torque)[:2])
+        if turns == 0 and np.hypot(*torque) <= NEGLIGIBLE * boat.weight * boat.size:
+            return 0.0, 0.0
+        turn = _towards_balance(boat, state, torque)
+        if turn @ before < 0.0:
+            # There and back again, over a kink of the righting arm.
+            longest *= 0.5
+        turn *= min(1.0, longest / (np.hypot(*turn) + 1e-300))
+        if np.hypot(*turn) <= SHORTEST_TURN:
+            roll, pitch, _ = to_roll_pitch_yaw(orientation)
+            return float(roll), float(pitch)
+        orientation, before = _turned(orientation, turn), turn
+    return None
+
+
+def turns_over(boat):
+    """Return True for a boat whose mast at rest leans by more than 60 degrees."""
+    return rotation_matrix(tuple(rest_state(boat).orientation))[2][2] < TURNED_OVER
+
+
+def floating_state(boat, roll=0.0, pitch=0.0, yaw=0.0, x=0.0, y=0.0):
     """
     Return the State of a boat without motion that carries its own weight at the attitude given.
 
@@ -70,22 +117,45 @@ def rest_state(boat, roll=0.0, pitch=0.0, yaw=0.0, x=0.0, y=0.0):
     return State(position, orientation)
 
 
-def still_load(boat, state):
-    """Return the `Load` on a boat at one `State` in still water, and its probes' depths (n,) m."""
-    hull = hull_view(boat, plain=True)
-    load = load_at(boat.plain_records[0], hull, *STILL_WATER, state.position.tolist(),
-                   state.orientation.tolist(), 0.0)
-    return load, np.array(hull.depths)
+def under_water(boat):
+    """Return a level `State` with all of a boat far under water."""
+    return State([0.0, 0.0, -_reach(boat)])
+
+
+def in_air(boat):
+    """Return a level `State` with all of a boat out of the water."""
+    return State([0.0, 0.0, _reach(boat)])
 
 
 def draft(boat, state):
-    """Return the depth in m of the deepest probe of a boat in still water."""
-    return float(still_load(boat, state)[1].max())
+    """Return the depth in m of a boat's lowest point in still water, of its surface or probes."""
+    if boat.hull.surface is None:
+        return float(still_load(boat, state)[1].max())
+    rotation = rotation_matrix(state.orientation.tolist())
+    corners = boat.hull.surface.corners - boat.center_of_mass
+    return float(-(to_world(rotation, corners.T)[2].min() + state.position[2]))
 
 
-def level_torque(boat):
-    """Return the torque (2,) N m about x and y that turns a boat away from level at rest."""
-    return np.array(still_load(boat, rest_state(boat))[0].torque[:2])
+def _towards_balance(boat, state, torque):
+    """
+    Return the turn (2,) in rad about world x and y on which the torque (2,) N m there vanishes.
+
+    By Newton's method, free to rise and sink; with the sizes of the stiffness where it is
+    negative, so that a boat always goes the way that it is pushed.
+    """
+    K = hydrostatic_stiffness(boat, state)
+    free = K[1:, 1:] - np.outer(K[1:, 0], K[0, 1:]) / K[0, 0] if K[0, 0] > 0.0 else K[1:, 1:]
+    values, vectors = np.linalg.eigh(free)
+    values = np.maximum(np.abs(values), NEGLIGIBLE * boat.weight * boat.size)
+    return vectors @ ((vectors.T @ torque) / values)
+
+
+def _turned(orientation, turn):
+    """Return an orientation turned by a vector (2,) in rad about world x and y."""
+    angle = math.hypot(*turn)
+    s = math.sin(0.5 * angle) / (angle + 1e-300)
+    return product((float(s * turn[0]), float(s * turn[1]), 0.0, math.cos(0.5 * angle)),
+                   orientation)
 
 
 @compiled
@@ -115,8 +185,11 @@ def highest_carrying(law, max_force, heights, above, upright, weight, reach):
 def _floating_height(boat, orientation):
     """Return the height in m of the centre of mass, to round-off."""
     hull = boat.hull
-    reach = float(np.max(np.linalg.norm(boat.probe_offsets, axis=1)
-                         + DEEP_HEIGHTS * hull.height))
+    if hull.panels is not None:
+        facets = (hull.panels.facets - boat.center_of_mass) @ np.array(
+            rotation_matrix(orientation)).T
+        return -level_for(facets, boat.weight / hull.specific_weight)
+    reach = _reach(boat)
     above, upright = _above(boat, orientation)
     few = len(above) < MANY_PIECES
     law = LAWS.index(hull.law)
@@ -131,7 +204,10 @@ def _floating_height(boat, orientation):
 
 
 def _sunk_height(boat, orientation):
-    """Return the height in m of the centre of mass at which no probe is above its height."""
+    """Return the height in m of the centre of mass at which no part of the hull is above water."""
+    if boat.hull.panels is not None:
+        corners = boat.hull.panels.corners - boat.center_of_mass
+        return -float(to_world(rotation_matrix(orientation), corners.T)[2].max())
     return float(np.min(-_above(boat, orientation)[0] - boat.hull.height))
 
 
@@ -139,3 +215,9 @@ def _above(boat, orientation):
     """Return how far (n,) m the probes are above the centre of mass, and body z . world z."""
     rotation = rotation_matrix(orientation)
     return to_world(rotation, tuple(boat.probe_offsets.T))[2], rotation[2][2]
+
+
+def _reach(boat):
+    """Return a depth in m at which every probe and panel is full to the last digit."""
+    return max(boat.size, float(np.max(np.linalg.norm(boat.probe_offsets, axis=1)
+                                       + DEEP_HEIGHTS * boat.hull.height)))

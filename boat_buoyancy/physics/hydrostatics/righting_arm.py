@@ -18,22 +18,48 @@ import math
 
 import numpy as np
 
-from .rest import floats, rest_state, still_load
+from .rest import floating_state, floats, rest_attitude
+from .stiffness import still_load
+from ..boat.clipping import level_for, submerged
+from ..rotation import from_roll_pitch_yaw, rotation_matrix
 
 
 def righting_arms(boat, heel):
     """
     Return the righting arm GZ (n,) m at each angle of ``heel`` (n,) rad, NaN for one that sinks.
 
-    -(roll torque about the centre of mass) / (m g), free to rise and sink, trim 0; positive when
-    it rights a positive heel.  The model's own: what the simulation does.
+    -(roll torque about the centre of mass) / (m g), free to rise and sink, at the trim that the
+    boat has at rest; positive when it rights a positive heel.  The model's own: what the
+    simulation does.
     """
     heel = np.asarray(heel, float)
     if not floats(boat):
         return np.full(heel.shape, math.nan)
-    rest = rest_state(boat, roll=heel.ravel())
-    torque = [still_load(boat, rest[i])[0].torque[0] for i in range(heel.size)]
+    states = floating_state(boat, heel.ravel(), trim(boat))
+    torque = [still_load(boat, states[i])[0].torque[0] for i in range(heel.size)]
     return -np.reshape(torque, heel.shape) / boat.weight
+
+
+def surface_righting_arms(boat, heel):
+    """
+    Return the righting arm (n,) m of a hull's surface, as of `righting_arms`, by exact clipping.
+
+    NaN for a surface that displaces less than the boat weighs.
+    """
+    heel, surface = np.asarray(heel, float), boat.hull.surface
+    volume, arms = boat.weight / boat.hull.specific_weight, []
+    for angle in heel.ravel().tolist():
+        R = np.array(rotation_matrix(from_roll_pitch_yaw(angle, trim(boat), 0.0)))
+        facets = (surface.facets - boat.center_of_mass) @ R.T
+        wet, moment = submerged(facets - [0.0, 0.0, level_for(facets, volume)])
+        # The lift's torque m g (y, -x, 0) about body x.
+        arms.append((R[1, 0] * moment[0] - R[0, 0] * moment[1]) / wet)
+    return np.reshape(arms if volume <= surface.volume else [math.nan] * heel.size, heel.shape)
+
+
+def trim(boat):
+    """Return the pitch in rad at which a boat lies at rest; 0 where it has no rest."""
+    return (rest_attitude(boat) or (0.0, 0.0))[1]
 
 
 def wall_sided_heel(beam, depth, draft):

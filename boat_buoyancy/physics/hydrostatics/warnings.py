@@ -17,38 +17,33 @@
 # A module of a package shadows nothing.
 # flake8: noqa: A005
 
-import math
-
 import numpy as np
 
 from . import rest
 from .metacentric_height import metacentric_heights
-from .natural_modes import equilibrium_stiffness, RESTORED
+from .rest import NEGLIGIBLE
+from .stiffness import still_load
 from ..boat.hull import LAWS
-from ..boat.state import State
 from ..forces.probe_laws import wetting
-from ..rotation import from_roll_pitch_yaw, rotation_matrix
-
-# Lengths below this part of the boat's size are round-off and no list or lever.
-NEGLIGIBLE = 1e-9
-# Beyond this angle in rad the attitude that the stiffness at rest leads to says little.
-FAR = math.radians(30.0)
+from ..rotation import rotation_matrix
 
 
 def flotation_warnings(boat):
     """Return what a user should know of a `Boat` at rest in still water: a tuple of sentences."""
     if not rest.floats(boat):
         return (_sinking(boat),)
-    level = rest.rest_state(boat)
-    torque = rest.level_torque(boat)
-    tilt = _tilt(boat, torque)
-    wet = _wetness(boat, level, np.zeros(3))
-    settled = wet if tilt is None else _wetness(boat, level, tilt)
+    if rest.rest_attitude(boat) is None:
+        return ('The boat finds no rest: it starts level, turns away from that and goes on '
+                'turning; give it more or wider probes, or lower boat.center_of_mass.',)
+    level, settled = (_shares(boat, state) for state in (
+        rest.floating_state(boat), rest.rest_state(boat)))
     carries = boat.hull.max_force > 0.0
-    full = carries & (np.maximum(wet, settled) >= 1.0 - NEGLIGIBLE)
-    left = carries & (settled <= 0.0) & (wet > 0.0)
-    sentences = [*_overturning(boat), *_listing(boat, torque, tilt, (full | left).any())]
-    if not (carries & (wet > 0.0) & (wet < 1.0 - NEGLIGIBLE)).any():
+    full = carries & (settled >= 1.0 - NEGLIGIBLE)
+    left = carries & (settled <= 0.0) & (level > 0.0)
+    sentences = [*_overturning(boat), *_listing(boat)]
+    if boat.hull.panels is not None:
+        return tuple(sentences)
+    if not (carries & (settled > 0.0) & (settled < 1.0 - NEGLIGIBLE)).any():
         sentences.append(
             'No probe is at the waterline at rest: each is either full or dry, so nothing holds '
             'the boat at its height; give the probes other heights (probes.positions) or make '
@@ -81,7 +76,7 @@ def _sinking(boat):
 
 def _overturning(boat):
     """Yield a sentence for each axis about which nothing rights the boat."""
-    round_off = NEGLIGIBLE * _size(boat)
+    round_off = NEGLIGIBLE * boat.size
     for height, name, motion, cure in zip(
             metacentric_heights(boat), ('transverse', 'longitudinal'), ('roll', 'pitch'),
             ('wider', 'longer')):
@@ -96,55 +91,27 @@ def _overturning(boat):
                    f'boat.center_of_mass or make the boat {cure}.')
 
 
-def _listing(boat, torque, tilt, uncertain):
-    """
-    Yield a sentence for a boat whose lift does not act through its centre of mass.
-
-    ``torque`` (2,) N m level and at rest; ``tilt`` as from `_tilt`; ``uncertain`` when a probe
-    leaves its range on the way there.
-    """
-    port, ahead = torque[0] / boat.weight, -torque[1] / boat.weight
-    round_off = NEGLIGIBLE * _size(boat)
-    if max(abs(ahead), abs(port)) <= round_off:
+def _listing(boat):
+    """Yield a sentence for a boat that does not lie level."""
+    roll, pitch = np.degrees(rest.rest_attitude(boat)).round(2).tolist()
+    if not roll and not pitch:
         return
+    torque = still_load(boat, rest.floating_state(boat))[0].torque
     places = [f'{abs(arm):.3g} m {word if arm > 0 else opposite}'
-              for arm, word, opposite in ((ahead, 'ahead', 'aft'), (port, 'to port',
-                                                                    'to starboard'))
-              if abs(arm) > round_off]
-    if tilt is None or np.abs(tilt[1:]).max() > FAR:
-        seen = 'it starts level, turns far away from that and may capsize'
-    else:
-        roll, pitch = np.degrees(tilt[1:]).round(2) + 0.0
-        attitude = f'roll {roll:g} and pitch {pitch:g} degrees (positive pitch is bow down)'
-        seen = f'it starts level and settles near {attitude}'
-        if uncertain:
-            seen = (f'it starts level and leans towards {attitude}, where a probe is full or '
-                    'dry: it may go on and capsize')
+              for arm, word, opposite in (
+                  (-torque[1] / boat.weight, 'ahead', 'aft'),
+                  (torque[0] / boat.weight, 'to port', 'to starboard'))
+              if abs(arm) > NEGLIGIBLE * boat.size]
+    turned = 'turns over and rests' if rest.turns_over(boat) else 'rests'
     yield (f'Level is not an equilibrium: the lift acts {" and ".join(places)} of the centre of '
-           f'mass, so {seen}; move boat.center_of_mass there or change probes.weights.')
+           f'mass, so the boat {turned} at roll {roll:g} and pitch {pitch:g} degrees (positive '
+           'roll is starboard down, positive pitch bow down); move boat.center_of_mass there or '
+           'change probes.weights.')
 
 
-def _tilt(boat, torque):
-    """
-    Return the heave m, roll and pitch rad (3,) at which the stiffness balances a level boat.
-
-    ``torque`` (2,) N m level and at rest.  None when the boat does not stand at level against a
-    small push.
-    """
-    stiffness = equilibrium_stiffness(boat)[RESTORED, RESTORED]
-    scale = np.array([1.0, _size(boat), _size(boat)])
-    values = np.linalg.eigvalsh(stiffness / np.outer(scale, scale))
-    if values[0] <= NEGLIGIBLE * values[-1]:
-        return None
-    return np.linalg.solve(stiffness, [0.0, *torque])
-
-
-def _wetness(boat, level, tilt):
-    """Return each probe's share (n,) of its maximum force, tilted by heave m, roll, pitch rad."""
-    heave, roll, pitch = tilt
-    state = State(level.position + [0.0, 0.0, heave],
-                  np.stack(from_roll_pitch_yaw(roll, pitch, 0.0)))
-    depths, upright = rest.still_load(boat, state)[1], rotation_matrix(state.orientation)[2][2]
+def _shares(boat, state):
+    """Return each probe's share (n,) of its maximum force at a `State` in still water."""
+    depths, upright = still_load(boat, state)[1], rotation_matrix(state.orientation)[2][2]
     law = LAWS.index(boat.hull.law)
     return np.array([wetting(law, height, depth, upright)[1]
                      for height, depth in zip(boat.hull.height, depths)])
@@ -155,8 +122,3 @@ def _named(boat, chosen):
     first, *others = np.flatnonzero(chosen).tolist()
     place = ', '.join(f'{c:.4g}' for c in boat.hull.positions[first])
     return f'probe {first} at {place} m{f", and {len(others)} more" if others else ""}'
-
-
-def _size(boat):
-    """Return a length of the boat in m, to tell round-off from lengths."""
-    return float(np.max(np.linalg.norm(boat.probe_offsets, axis=1) + boat.hull.height))

@@ -25,8 +25,9 @@ import numpy as np
 
 from .parameters import WAVE_KINDS
 from ..boat.boat import Boat, Damping
-from ..boat.columns import box_hull
 from ..boat.hull import probe_hull
+from ..boat.mesh import read_mesh
+from ..boat.shapes import box_shaped, mesh_shaped
 from ..boat.state import body_frame, center_of_mass_state
 from ..hydrostatics import rest
 from ..hydrostatics.natural_modes import equilibrium_stiffness
@@ -41,14 +42,15 @@ PROBE_DAMPING_RATIO = 0.3
 LEAST_BALL = 0.1
 
 
-def assembled_boat(in_force):
+def assembled_boat(in_force, sea):
     """
-    Return the `Boat`, with everything derived that was not given.
+    Return the `Boat` for a sea, with everything derived that was not given, and sentences.
 
-    Inertia: that of a solid box, or for probes mass times their mean square distance from the
-    centre of mass.  Probe damping: 0.3 of critical in heave, 2 sqrt(K m), K at rest.
+    Inertia: that of a solid body of the hull's shape, or for probes mass times their mean square
+    distance from the centre of mass.  Probe damping: 0.3 of critical in heave, 2 sqrt(K m), K at
+    rest.  The sentences are what is to be said of a mesh.
     """
-    mass, gravity = in_force['boat.mass'], in_force['gravity']
+    mass, gravity, said = in_force['boat.mass'], in_force['gravity'], ()
     center_of_mass = np.array(in_force['boat.center_of_mass'])
     if in_force['probes.positions'] is not None:
         hull = _probe_hull(in_force, mass * gravity)
@@ -56,9 +58,13 @@ def assembled_boat(in_force):
         estimate = np.full(3, max(mass * np.mean(np.sum(offsets ** 2, axis=1)),
                                   0.4 * mass * LEAST_BALL ** 2))
     else:
-        hull = _box(in_force, gravity)
-        length, beam, depth = np.square(in_force['hull.size'])
-        estimate = mass / 12.0 * np.array([beam + depth, length + depth, length + beam])
+        hull, said = _shaped(in_force, mass, gravity)
+        estimate = mass * hull.surface.unit_inertia
+        if in_force['hull.shape'] == 'box':
+            length, beam, depth = np.square(in_force['hull.size'])
+            estimate = mass / 12.0 * np.array([beam + depth, length + depth, length + beam])
+        if in_force['hull.model'] == 'panels':
+            hull = replace(hull, panel_size=in_force['hull.panel_size']).panelled(sea)
     inertia = in_force['boat.inertia']
     damping = Damping(**{name: in_force[f'damping.{name}'] for name in (
         'linear_retention', 'angular_retention', 'air_linear_retention',
@@ -68,7 +74,7 @@ def assembled_boat(in_force):
     probe = in_force['damping.probe']
     if probe is None:
         probe = PROBE_DAMPING_RATIO * 2.0 * math.sqrt(_heave_stiffness(boat) * mass)
-    return replace(boat, damping=replace(damping, probe=probe))
+    return replace(boat, damping=replace(damping, probe=probe)), said
 
 
 def _probe_hull(in_force, weight):
@@ -81,13 +87,17 @@ def _probe_hull(in_force, weight):
         law=in_force['probes.law'] or 'spring')
 
 
-def _box(in_force, gravity):
-    """Return the hull of a box."""
+def _shaped(in_force, mass, gravity):
+    """Return the hull of a shape, and what is to be said of its mesh."""
+    density, probes = in_force['water_density'], in_force['hull.probes']
+    water = {'specific_weight': density * gravity, 'law': in_force['probes.law'] or 'column'}
+    if in_force['hull.shape'] == 'mesh':
+        surface, said = read_mesh(in_force['hull.mesh'], in_force['hull.scale'])
+        return mesh_shaped(surface, probes, mass / density, **water), said
     size, bottom = in_force['hull.size'], in_force['hull.bottom']
-    return box_hull(
-        size, -size[2] / 2 if bottom is None else bottom, in_force['hull.probes'],
-        specific_weight=in_force['water_density'] * gravity,
-        law=in_force['probes.law'] or 'column')
+    spacing = in_force['hull.spacing'] if in_force['hull.shape'] == 'twin' else None
+    return box_shaped(size, -size[2] / 2 if bottom is None else bottom, probes, spacing=spacing,
+                      **water), ()
 
 
 def _heave_stiffness(boat):
@@ -129,11 +139,16 @@ def _waves(in_force):
 def assembled_start(boat, in_force):
     """Return the `State` of the centre of mass at the start, at its draft unless z is given."""
     x, y, *height = in_force['start.position']
-    roll, pitch, yaw = in_force['start.orientation']
-    orientation = np.array(from_roll_pitch_yaw(roll, pitch, yaw))
+    attitude = start_attitude(boat, in_force)
     if height:
         z, = height
     else:
-        z = body_frame(boat, rest.rest_state(boat, roll, pitch, yaw, x, y))[0][2]
-    return center_of_mass_state(boat, (x, y, z), orientation, in_force['start.velocity'],
-                                in_force['start.angular_velocity'])
+        z = body_frame(boat, rest.floating_state(boat, *attitude, x, y))[0][2]
+    return center_of_mass_state(boat, (x, y, z), np.array(from_roll_pitch_yaw(*attitude)),
+                                in_force['start.velocity'], in_force['start.angular_velocity'])
+
+
+def start_attitude(boat, in_force):
+    """Return roll, pitch and yaw rad at the start: as given, or as the boat lies at rest."""
+    given = in_force['start.orientation']
+    return (*(rest.rest_attitude(boat) or (0.0, 0.0)), 0.0) if given is None else given

@@ -42,6 +42,10 @@ def checked(name, value):
         if not isinstance(value, bool):
             raise ValueError(f'{name}: expected true or false, got {value!r}')
         return value
+    if parameter.kind == 'path':
+        if not isinstance(value, str) or not value.strip():
+            raise ValueError(f'{name}: expected the path of a file, got {value!r}')
+        return value
     if parameter.kind == 'string':
         return _string(name, value, parameter)
     if parameter.kind == 'int_array':

@@ -23,10 +23,11 @@ from dataclasses import dataclass
 import difflib
 
 from ..boat.hull import LAWS
+from ..boat.shapes import SHAPES
 from ..sea.waves import MAX_COMPONENTS
 from ..stepping.integrators import INTEGRATORS
 
-SHAPES = ('box',)
+MODELS = ('columns', 'panels')
 # The kinds of waves that a sea can be asked for, one at a time: the parameters of each.
 WAVE_KINDS = (('sea.waves',), ('sea.sea_state',), ('sea.significant_height', 'sea.peak_period'))
 NODE_NAME = 'boat_buoyancy'
@@ -37,9 +38,9 @@ class Parameter:
     """
     One parameter.
 
-    Main arguments: ``kind`` is float, int, bool, string, float_array or int_array; ``default``
-    None means derived from others or none at all, the description says which; ``unit`` of a
-    number, '-' for none; ``description`` ends with what changes when it is raised.
+    Main arguments: ``kind`` is float, int, bool, string, path, float_array or int_array;
+    ``default`` None means derived from others or none at all, the description says which;
+    ``unit`` of a number, '-' for none; ``description`` ends with what changes when it is raised.
     Other arguments: ``above`` (not reached), ``at_least`` and ``at_most`` bound every number;
     ``lengths`` allowed of an array, () = any; ``choices`` of a string; ``read_only`` while the
     node runs.
@@ -112,22 +113,41 @@ def _table():
                   lengths=(3,), **fixed),
         Parameter('boat.inertia', 'float_array', None, 'kg·m²',
                   'Ixx, Iyy, Izz or Ixx, Iyy, Izz, Ixy, Ixz, Iyz about the centre of mass, '
-                  'off-diagonals as in URDF; without it a solid box, or for probes mass times '
-                  'their mean square distance. Higher turns more slowly.',
+                  'off-diagonals as in URDF; without it a solid body of the shape of the hull, or '
+                  'for probes mass times their mean square distance. Higher turns more slowly.',
                   at_least=-1e18, at_most=1e18, lengths=(3, 6)),
         Parameter('hull.shape', 'string', 'box', '',
-                  'Shape of the hull; give hull or probes, not both.', choices=SHAPES, **fixed),
+                  'Shape of the hull: box; twin, two boxes side by side; or mesh. Give hull or '
+                  'probes, not both.', choices=SHAPES, **fixed),
+        Parameter('hull.model', 'string', 'columns', '',
+                  'What lifts the hull: columns (cheap, a box exact until an edge dips or rises) '
+                  'or panels (pressure on its surface, right at any heel).', choices=MODELS,
+                  **fixed),
         Parameter('hull.size', 'float_array', (4.0, 2.0, 1.0), 'm',
-                  'Length, beam and depth. Longer or beamier carries more and is stiffer in '
-                  'pitch or roll; deeper carries more.', at_least=1e-6, at_most=1e6,
-                  lengths=(3,), **fixed),
+                  'Length, beam and depth of a box, of each of a twin. Longer or beamier carries '
+                  'more and is stiffer in pitch or roll; deeper carries more.', at_least=1e-6,
+                  at_most=1e6, lengths=(3,), **fixed),
+        Parameter('hull.spacing', 'float', None, 'm',
+                  'Distance between the centre lines of the two boxes of a twin; needed for one. '
+                  'Wider is stiffer in roll.', above=0.0, at_most=1e6, **fixed),
         Parameter('hull.bottom', 'float', None, 'm',
-                  'z of the bottom in the body frame; without it half the depth below the '
-                  'origin. Higher lowers the body frame in the water.',
+                  'z of the bottom of a box or twin in the body frame; without it half the depth '
+                  'below the origin. Higher lowers the body frame in the water.',
                   at_least=-1e6, at_most=1e6, **fixed),
+        Parameter('hull.mesh', 'path', None, '',
+                  'File of a closed triangle mesh (STL, OBJ or PLY) in body axes; its path is '
+                  'from the folder of the parameter file. Needed for the shape mesh.', **fixed),
+        Parameter('hull.scale', 'float', 1.0, '-',
+                  'Metres for each unit of length of hull.mesh: 0.001 for millimetres. Higher is '
+                  'a larger boat.', at_least=1e-9, at_most=1e9, **fixed),
         Parameter('hull.probes', 'int_array', (2, 2), '-',
-                  'Probes along and across. More follow short waves and large heel better and '
-                  'cost more.', at_least=1, at_most=100, lengths=(2,), **fixed),
+                  'Probes along and across each hull: its columns, and with panels where depth '
+                  'and probe damping are taken. More follow short waves and large heel better '
+                  'and cost more.', at_least=1, at_most=100, lengths=(2,), **fixed),
+        Parameter('hull.panel_size', 'float', 0.0, 'm',
+                  'Longest edge of a panel; 0 = as fine as the sea needs, the facets of the shape '
+                  'in flat water and else an eighth of the shortest wave that matters. Higher is '
+                  'cheaper.', at_least=0.0, at_most=1e6, **fixed),
         Parameter('probes.positions', 'float_array', None, 'm',
                   'x, y, z of every probe in the body frame, one flat list. Wider apart is '
                   'stiffer in roll and pitch.', at_least=-1e6, at_most=1e6, **fixed),
@@ -203,10 +223,10 @@ def _table():
                   'Where the body frame starts in the world: x, y (floats at its draft) or '
                   'x, y, z. A higher z drops it from there.', at_least=-1e9, at_most=1e9,
                   lengths=(2, 3), **fixed),
-        Parameter('start.orientation', 'float_array', (0.0, 0.0, 0.0), 'rad',
-                  'Roll, pitch, yaw at the start. Higher roll lowers starboard, higher pitch the '
-                  'bow, higher yaw turns left.', at_least=-1e3, at_most=1e3,
-                  lengths=(3,), **fixed),
+        Parameter('start.orientation', 'float_array', None, 'rad',
+                  'Roll, pitch, yaw at the start; without it as the boat lies at rest. Higher roll '
+                  'lowers starboard, higher pitch the bow, higher yaw turns left.',
+                  at_least=-1e3, at_most=1e3, lengths=(3,), **fixed),
         Parameter('start.velocity', 'float_array', (0.0, 0.0, 0.0), 'm/s',
                   'Velocity of the body frame at the start: ahead, to port, up in body axes. '
                   'Higher starts faster.',

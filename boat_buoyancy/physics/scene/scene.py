@@ -21,21 +21,15 @@ import os
 import numpy as np
 
 from . import parameter_file, parameters
-from .build import assembled_boat, assembled_sea, assembled_start
+from .build import assembled_boat, assembled_sea, assembled_start, start_attitude
 from .parameter_values import checked
+from .remarks import check_together, PROBES_ONLY, remarks, without_use
 from ..boat.boat import Boat
 from ..boat.state import PARTS, State
-from ..hydrostatics.warnings import flotation_warnings
 from ..sea.waves import Sea
 from ..step_size.plan import Plan, plan
 from ..stepping.fleet import Fleet
 from ..stepping.simulation import Simulation
-
-# Somewhat more than 2 pi, so that 6.2832 is one.
-FULL_TURN = 6.2833
-# Height over length at which a wave breaks in deep water (Michell 1893).
-BREAKING = 1.0 / 7.0
-PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +100,7 @@ def load_scene(source: str | os.PathLike | Mapping) -> Scene:
     values = {name: value for name, value in parameter_file.read(source).items()
               if name.partition('.')[0] not in parameter_file.ROS_OWN}
     try:
-        return scene_from_values(values)
+        return scene_from_values(values, os.path.dirname(source))
     except ValueError as error:
         raise ValueError(f'{source}: {error}') from None
 
@@ -148,24 +142,28 @@ def load_fleet(scenes: Iterable, *, threads: int | None = None) -> Fleet:
                  warnings=tuple(warnings.values()))
 
 
-def scene_from_values(values):
+def scene_from_values(values, folder='.'):
     """
     Return the `Scene` of parameters {dotted name: value}; None means not given.
 
-    ValueError as in `load_scene`.
+    ``folder``, the one that paths start from.  ValueError as in `load_scene`.
     """
     values = {name: value for name, value in values.items() if value is not None}
     parameters.check_names(values)
     given = {name: checked(name, value) for name, value in values.items()}
+    if 'hull.mesh' in given:
+        # Absolute, so that what is in force makes the same boat from anywhere.
+        given['hull.mesh'] = os.path.abspath(os.path.join(folder, given['hull.mesh']))
     in_force = {name: given.get(name, parameter.default)
                 for name, parameter in parameters.PARAMETERS.items()}
-    _check_together(given, in_force)
+    check_together(given, in_force)
 
-    boat, sea = assembled_boat(in_force), assembled_sea(in_force)
+    sea = assembled_sea(in_force)
+    boat, said = assembled_boat(in_force, sea)
     return Scene(
         boat, sea, assembled_start(boat, in_force), in_force['rate'], in_force['integrator'],
         in_force['substeps'], in_force['world_frame'], in_force['body_frame'],
-        in_force['thrust.timeout'], _warnings(boat, sea, given, in_force), given,
+        in_force['thrust.timeout'], (*said, *remarks(boat, sea, given, in_force)), given,
         _complete(boat, given, in_force))
 
 
@@ -183,78 +181,6 @@ def _flattened(values, prefix=''):
             yield pair
 
 
-def _check_together(given, in_force):
-    """Raise ValueError for parameters that are right alone and wrong together."""
-    hull = [name for name in given if name.startswith('hull.')]
-    probes = [name for name in PROBES_ONLY if name in given]
-    if hull and probes:
-        raise ValueError(f'hull and probes: expected one of them, got {hull[0]} and {probes[0]}')
-    if probes and 'probes.positions' not in given:
-        raise ValueError('probes.positions: expected x, y, z of every probe because '
-                         f'{probes[0]} is given, got none')
-    positions = given.get('probes.positions')
-    if positions is not None and (not positions or len(positions) % 3):
-        raise ValueError('probes.positions: expected x, y, z of every probe, at least one '
-                         f'probe, got {len(positions)} numbers: {list(positions)}')
-    if positions and 'probes.weights' in given:
-        weights, count = given['probes.weights'], len(positions) // 3
-        if len(weights) != count:
-            raise ValueError(f'probes.weights: expected {count} numbers, one for every probe, '
-                             f'got {len(weights)}: {list(weights)}')
-    if in_force['world_frame'] == in_force['body_frame']:
-        raise ValueError('body_frame: expected another frame than world_frame, '
-                         f'got {in_force["body_frame"]!r} for both')
-
-
-def _warnings(boat, sea, given, in_force):
-    """Return sentences about what was surely not meant."""
-    warnings = list(flotation_warnings(boat))
-    drag = [name for name in ('damping.linear', 'damping.quadratic') if any(in_force[name])]
-    retained = [name for name in ('damping.linear_retention', 'damping.angular_retention')
-                if min(in_force[name]) < 1.0]
-    if drag and retained:
-        warnings.append(
-            f'Drag counts twice: {" and ".join(drag)} on top of {" and ".join(retained)}, so the '
-            'boat will be slower than the vehicle it was measured on; set retention to [1.0].')
-    if drag and 'damping.probe' not in given and boat.damping.probe > 0.0:
-        warnings.append(
-            f'Drag counts twice: {" and ".join(drag)} on top of damping.probe, which is '
-            f'{boat.damping.probe:.4g} N s/m when left out and brakes in all directions; set '
-            'damping.probe: 0.0 for the drag of a measured vehicle alone.')
-    warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
-                 if name in given and given[name] != parameters.PARAMETERS[name].default]
-    for name, angles in (('sea.waves', sea.waves[:, 2]),
-                         ('sea.direction', [in_force['sea.direction']]),
-                         ('start.orientation', in_force['start.orientation'])):
-        largest = max(angles, key=abs, default=0.0)
-        if name in given and abs(largest) > FULL_TURN:
-            warnings.append(f'{name} has an angle of {largest:g}, more than a full turn: angles '
-                            'are in radians, and this looks like degrees.')
-    return (*warnings, *sea_warnings(sea))
-
-
-def sea_warnings(sea):
-    """Return sentences on a `Sea` that no water could have, in a tuple."""
-    steepness = 2.0 * sea.waves[:, 0] * np.hypot(*sea.wave_vector.T) / (2.0 * np.pi)
-    if steepness.max(initial=0.0) <= BREAKING:
-        return ()
-    row = int(np.argmax(steepness))
-    return (f'The waves are steeper than water can be: row {row + 1}, {sea.waves[row].tolist()}, '
-            f'has a height of {steepness[row]:.2g} of its length, and breaks above {BREAKING:.2g};'
-            ' give it a longer period or less amplitude.',)
-
-
-def _without_effect(in_force):
-    """Yield (name, why) of the parameters that nothing in the scene looks at."""
-    if in_force['probes.positions'] is not None:
-        yield ('water_density', 'probes.floatiness sets the lift of probes, and the density of '
-               'water that of a hull shape')
-    if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:
-        for name in ('sea.direction', 'sea.components', 'sea.seed'):
-            yield name, ('it shapes an irregular sea, and there is none: give sea.sea_state or '
-                         'sea.significant_height')
-
-
 def _complete(boat, given, in_force):
     """Return every parameter in force, with derived ones as they were derived."""
     derived = {
@@ -263,8 +189,9 @@ def _complete(boat, given, in_force):
         'damping.probe': boat.damping.probe,
         'hull.bottom': float(boat.hull.positions[0, 2]),
         'probes.weights': (1.0,) * len(boat.hull.positions),
-        'probes.law': boat.hull.law,
-        'sea.waves': ()}
-    other = 'hull.' if 'probes.positions' in given else PROBES_ONLY
+        'probes.law': boat.hull.law, 'sea.waves': (),
+        'start.orientation': start_attitude(boat, in_force)}
+    other = ('hull.' if 'probes.positions' in given
+             else (*PROBES_ONLY, *without_use(in_force)))
     return {name: derived[name] if value is None else value
             for name, value in in_force.items() if not name.startswith(other)}

@@ -97,6 +97,10 @@ def wavenumber(angular_frequency, depth=0.0, gravity=9.81):
     return x / depth
 
 
+# The waves that together carry this part of a sea's energy, the shortest, may be left out.
+NEGLIGIBLE_ENERGY = 0.01
+
+
 class Water:
     """
     What every sea can be asked: its surface and its motion, from its table of waves.
@@ -108,6 +112,18 @@ class Water:
         x, y, time = np.broadcast_arrays(x, y, time)
         kx, ky, frequency, phase = self.table[:4]
         return (x[..., None] * kx + y[..., None] * ky - time[..., None] * frequency + phase)
+
+    @cached_property
+    def shortest_length(self) -> float:
+        """Return the length in m of the shortest wave that counts, infinite in flat water."""
+        amplitude = np.maximum(np.abs(self.table[START]),
+                               np.abs(self.table[START] + self.table[RISE]))
+        k = np.hypot(self.table[KX], self.table[KY])
+        order = np.argsort(-k)
+        energy = np.cumsum(amplitude[order] ** 2)
+        counts = energy >= NEGLIGIBLE_ENERGY * energy[-1:]
+        counts &= amplitude[order] > 0.0
+        return float(2.0 * np.pi / k[order][counts].max()) if counts.any() else np.inf
 
     def elevation(self, x: ArrayLike, y: ArrayLike, time: ArrayLike) -> np.ndarray:
         """Return the height of the surface in m at world ``x``, ``y`` m and ``time`` s."""

@@ -22,9 +22,11 @@ import numpy as np
 
 from ..boat.boat import Boat, Damping
 from ..boat.state import State, to_rows
-from ..hydrostatics.natural_modes import highest_damping_rate, RESTORED
-from ..hydrostatics.rest import DEEP_HEIGHTS, floats, rest_state, still_load
-from ..rotation import product
+from ..hydrostatics.natural_modes import highest_damping_rate, levelled, RESTORED
+from ..hydrostatics.rest import (floating_state, floats, in_air, rest_attitude, rest_state,
+                                 turns_over, under_water)
+from ..hydrostatics.stiffness import still_load
+from ..rotation import product, rotation_matrix, to_world
 
 # Round-off of a number near 1.
 EPSILON = float(np.finfo(float).eps)
@@ -54,9 +56,8 @@ class Balance:
 
     @property
     def reach(self):
-        """Return the distance in m from the centre of mass to the farthest probe's end."""
-        return float(np.max(np.linalg.norm(self.boat.probe_offsets, axis=1)
-                            + self.boat.hull.height))
+        """Return the distance in m from the centre of mass to the farthest end of the hull."""
+        return self.boat.size
 
     @property
     def small(self):
@@ -83,19 +84,23 @@ class Balance:
 @lru_cache(maxsize=64)
 def at_rest(boat: Boat) -> Balance:
     """
-    Return the `Balance` of a boat level in still water: afloat, or deep where it sinks.
+    Return the `Balance` of a boat at rest in still water: afloat, or deep where it sinks.
 
-    One that would not lie level is ballasted until it does, its centre of mass moved over the
-    centre of its lift; one that sinks weighs no more than its lift.
+    One that turns over or finds no rest is ballasted until it lies level, its centre of mass moved
+    over the centre of its lift; one that sinks weighs no more than its lift.
     """
-    state = rest_state(boat) if floats(boat) else under_water(boat)
+    lies = floats(boat) and rest_attitude(boat) is not None and not turns_over(boat)
+    state = rest_state(boat) if lies else floating_state(boat) if floats(boat) else under_water(
+        boat)
     load, depths = still_load(boat, state)
-    lift = boat.weight + load.force[2]
-    moved = np.array([-load.torque[1], load.torque[0], 0.0]) / lift
-    boat = replace(boat, gravity=lift / boat.mass, center_of_mass=boat.center_of_mass + moved)
-    balance = Balance(boat, state, float(min(boat.hull.height.min(), depths.max())))
-    squared = np.linalg.eigvals(np.linalg.inv(boat.mass_matrix)[RESTORED, RESTORED]
-                                @ stiffness(balance)).real
+    if not lies:
+        lift = boat.weight + load.force[2]
+        moved = np.array([-load.torque[1], load.torque[0], 0.0]) / lift
+        boat = replace(boat, gravity=lift / boat.mass, center_of_mass=boat.center_of_mass + moved)
+    balance = Balance(boat, state, min(float(boat.hull.height.min()),
+                                       max(map(abs, depths.tolist()))))
+    mass = levelled(boat.mass_matrix, state)
+    squared = np.linalg.eigvals(np.linalg.inv(mass)[RESTORED, RESTORED] @ stiffness(balance)).real
     # What is no more than that neither rights nor upsets the boat.
     nothing = balance.round_off * np.abs(squared).max()
     # An exact 0 is stepped as such, and grows by no round-off.
@@ -110,40 +115,40 @@ def at_rest(boat: Boat) -> Balance:
 def drifting(boat: Boat) -> list[Balance]:
     """Return the `Balance`s of a boat without lift and weight, in water and in air."""
     light = replace(boat, gravity=NEXT_TO_NOTHING, hull=replace(
-        boat.hull, max_force=NEXT_TO_NOTHING * boat.hull.max_force))
+        boat.hull, max_force=NEXT_TO_NOTHING * boat.hull.max_force, panels=None))
     rate, height = highest_damping_rate(boat), float(boat.hull.height.min())
     return [Balance(light, state, height, rate, rate)
             for state in (under_water(boat), in_air(boat))]
 
 
-def under_water(boat: Boat) -> State:
-    """Return a `State` with every probe full."""
-    return replace(rest_state(boat), position=[0.0, 0.0, -_reach(boat)])
-
-
-def in_air(boat: Boat) -> State:
-    """Return a `State` with every probe dry."""
-    return replace(rest_state(boat), position=[0.0, 0.0, _reach(boat)])
-
-
 def stiffness(balance):
-    """Return (3, 3), minus the change of heave force and roll and pitch torque with each."""
+    """
+    Return (3, 3), minus the change of heave force and torques about world x and y with each.
+
+    By central differences, as `limits` looks at a step: where a probe is about to be full or dry
+    between what it is on both sides.
+    """
     start, columns = to_rows(balance.state), []
     for move in np.diag(balance.small * balance.units)[:3]:
         wrenches = []
         for row in (displaced(start, move), displaced(start, -move)):
             load, _ = still_load(balance.boat, State(row[:3], row[3:7]))
-            wrenches.append([load.force[2], *load.torque[:2]])
+            R = rotation_matrix(row[3:7].tolist())
+            wrenches.append([to_world(R, load.force)[2], *to_world(R, load.torque)[:2]])
         columns.append((np.array(wrenches[1]) - wrenches[0]) / (2.0 * move.sum()))
     return np.stack(columns, axis=1)
 
 
 def displaced(start, move):
-    """Return a row (13) moved away from ``start`` by heave, roll, pitch and velocities (9,)."""
+    """
+    Return a row (13) moved away from ``start`` by heave, roll, pitch and velocities (9,).
+
+    Turned about the level axes x and y of the world, as still water is the same all around.
+    """
     row = start.copy()
     heave, roll, pitch = move[:3]
     row[2] += heave
-    row[3:7] = product(tuple(start[3:7]), (0.5 * roll, 0.5 * pitch, 0.0, 1.0))
+    row[3:7] = product((0.5 * roll, 0.5 * pitch, 0.0, 1.0), tuple(start[3:7]))
     row[7:] += move[3:]
     return row
 
@@ -151,7 +156,7 @@ def displaced(start, move):
 def displacement(start, row):
     """Return by what (9,) a row is away from ``start``, the inverse of `displaced`."""
     x, y, z, w = start[3:7].tolist()
-    roll, pitch, *_ = product((-x, -y, -z, w), tuple(row[3:7].tolist()))
+    roll, pitch, *_ = product(tuple(row[3:7].tolist()), (-x, -y, -z, w))
     return np.array([row[2] - start[2], 2.0 * roll, 2.0 * pitch, *(row[7:] - start[7:])])
 
 
@@ -159,9 +164,3 @@ def without_damping(boat: Boat) -> Boat:
     """Return a boat of which nothing takes speed away."""
     keep = [1.0]
     return replace(boat, damping=Damping(keep, keep, keep, keep))
-
-
-def _reach(boat):
-    """Return a depth in m at which every probe is full to the last digit."""
-    return float(np.max(np.linalg.norm(boat.probe_offsets, axis=1)
-                        + DEEP_HEIGHTS * boat.hull.height))

@@ -31,7 +31,8 @@ from ..boat.records import hull_view
 from ..boat.state import to_rows
 from ..compiled import calling, compile_now, compiled
 from ..forces.load import load_at
-from ..hydrostatics.rest import MANY_PIECES, STILL_WATER
+from ..hydrostatics.rest import MANY_PIECES
+from ..hydrostatics.stiffness import STILL_WATER
 from ..sea.waves import Sea
 from ..stepping.integrators import INTEGRATORS
 from ..stepping.leapfrog import leapfrog as step

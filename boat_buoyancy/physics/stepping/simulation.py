@@ -84,12 +84,16 @@ class Simulation(Stepped):
 
     @property
     def sea(self) -> Water:
-        """Return the sea; setting another takes effect with the next step."""
+        """
+        Return the sea; setting another takes effect with the next step.
+
+        Panels that are as fine as the sea needs them change with it.
+        """
         return self._engine.seas[0]
 
     @sea.setter
     def sea(self, sea: Water):
-        self._engine.replace(seas=[sea])
+        self._engine.replace(boats=[self.boat.on(sea)], seas=[sea])
 
     @property
     def state(self) -> State:

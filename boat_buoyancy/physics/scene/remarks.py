@@ -1,0 +1,137 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Parameters that are right one by one and wrong together, or surely not meant so."""
+
+import numpy as np
+
+from . import parameters
+from ..boat.hull import MAX_PANELS, PANELS_A_WAVE
+from ..hydrostatics.warnings import flotation_warnings
+
+# Somewhat more than 2 pi, so that 6.2832 is one.
+FULL_TURN = 6.2833
+# Height over length at which a wave breaks in deep water (Michell 1893).
+BREAKING = 1.0 / 7.0
+PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
+# The parameters that a shape of hull has no use for.
+USELESS = {'box': ('hull.spacing', 'hull.mesh', 'hull.scale'), 'twin': ('hull.mesh', 'hull.scale'),
+           'mesh': ('hull.size', 'hull.spacing', 'hull.bottom')}
+
+
+def check_together(given, in_force):
+    """
+    Raise ValueError for parameters that are right alone and wrong together.
+
+    ``given`` {name: value} and ``in_force``, every parameter, None where it is to be derived.
+    """
+    hull = [name for name in given if name.startswith('hull.')]
+    probes = [name for name in PROBES_ONLY if name in given]
+    if hull and probes:
+        raise ValueError(f'hull and probes: expected one of them, got {hull[0]} and {probes[0]}')
+    if probes and 'probes.positions' not in given:
+        raise ValueError('probes.positions: expected x, y, z of every probe because '
+                         f'{probes[0]} is given, got none')
+    positions = given.get('probes.positions')
+    if positions is not None and (not positions or len(positions) % 3):
+        raise ValueError('probes.positions: expected x, y, z of every probe, at least one '
+                         f'probe, got {len(positions)} numbers: {list(positions)}')
+    if positions and 'probes.weights' in given:
+        weights, count = given['probes.weights'], len(positions) // 3
+        if len(weights) != count:
+            raise ValueError(f'probes.weights: expected {count} numbers, one for every probe, '
+                             f'got {len(weights)}: {list(weights)}')
+    shape, spacing = in_force['hull.shape'], in_force['hull.spacing']
+    if shape == 'mesh' and in_force['hull.mesh'] is None:
+        raise ValueError('hull.mesh: expected the path of a file because hull.shape is mesh, got '
+                         'none')
+    if shape == 'twin' and (spacing is None or spacing < in_force['hull.size'][1]):
+        raise ValueError('hull.spacing: expected at least the beam of a hull, '
+                         f'{in_force["hull.size"][1]:g} m (hull.size), because hull.shape is '
+                         f'twin, got {"none" if spacing is None else f"{spacing:g} m"}')
+    if in_force['world_frame'] == in_force['body_frame']:
+        raise ValueError('body_frame: expected another frame than world_frame, '
+                         f'got {in_force["body_frame"]!r} for both')
+
+
+def without_use(in_force):
+    """Return the names of the hull's parameters that its shape has no use for."""
+    return USELESS[in_force['hull.shape']] if in_force['probes.positions'] is None else ()
+
+
+def remarks(boat, sea, given, in_force):
+    """Return sentences about what was surely not meant, in a tuple; arguments as above."""
+    warnings = [*flotation_warnings(boat), *panel_warnings(boat, sea)]
+    drag = [name for name in ('damping.linear', 'damping.quadratic') if any(in_force[name])]
+    retained = [name for name in ('damping.linear_retention', 'damping.angular_retention')
+                if min(in_force[name]) < 1.0]
+    if drag and retained:
+        warnings.append(
+            f'Drag counts twice: {" and ".join(drag)} on top of {" and ".join(retained)}, so the '
+            'boat will be slower than the vehicle it was measured on; set retention to [1.0].')
+    if drag and 'damping.probe' not in given and boat.damping.probe > 0.0:
+        warnings.append(
+            f'Drag counts twice: {" and ".join(drag)} on top of damping.probe, which is '
+            f'{boat.damping.probe:.4g} N s/m when left out and brakes in all directions; set '
+            'damping.probe: 0.0 for the drag of a measured vehicle alone.')
+    warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
+                 if name in given and given[name] != parameters.PARAMETERS[name].default]
+    for name, angles in (('sea.waves', sea.waves[:, 2]),
+                         ('sea.direction', [in_force['sea.direction']]),
+                         ('start.orientation', in_force['start.orientation'] or ())):
+        largest = max(angles, key=abs, default=0.0)
+        if name in given and abs(largest) > FULL_TURN:
+            warnings.append(f'{name} has an angle of {largest:g}, more than a full turn: angles '
+                            'are in radians, and this looks like degrees.')
+    return (*warnings, *sea_warnings(sea))
+
+
+def panel_warnings(boat, sea):
+    """Return a sentence on panels that are too large for a sea, in a tuple."""
+    hull = boat.hull
+    if hull.panels is None or hull.panel_size or sea.is_flat:
+        return ()
+    needed = sea.shortest_length / PANELS_A_WAVE
+    if needed >= hull.finest_panel:
+        return ()
+    return (f'The panels are too large for the shortest waves: {sea.shortest_length:.3g} m long, '
+            f'they want edges of at most {needed:.2g} m, and more panels than {MAX_PANELS} are '
+            f'not made, so edges are up to {hull.panels.longest_edge:.2g} m and the short waves push '
+            'the boat wrongly; take longer waves or a smaller hull.',)
+
+
+def sea_warnings(sea):
+    """Return sentences on a `Sea` that no water could have, in a tuple."""
+    steepness = 2.0 * sea.waves[:, 0] * np.hypot(*sea.wave_vector.T) / (2.0 * np.pi)
+    if steepness.max(initial=0.0) <= BREAKING:
+        return ()
+    row = int(np.argmax(steepness))
+    return (f'The waves are steeper than water can be: row {row + 1}, {sea.waves[row].tolist()}, '
+            f'has a height of {steepness[row]:.2g} of its length, and breaks above {BREAKING:.2g};'
+            ' give it a longer period or less amplitude.',)
+
+
+def _without_effect(in_force):
+    """Yield (name, why) of the parameters that nothing in the scene looks at."""
+    for name in without_use(in_force):
+        yield name, f'hull.shape is {in_force["hull.shape"]}'
+    if in_force['hull.model'] != 'panels':
+        yield 'hull.panel_size', 'hull.model is columns'
+    if in_force['probes.positions'] is not None:
+        yield ('water_density', 'probes.floatiness sets the lift of probes, and the density of '
+               'water that of a hull shape')
+    if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:
+        for name in ('sea.direction', 'sea.components', 'sea.seed'):
+            yield name, ('it shapes an irregular sea, and there is none: give sea.sea_state or '
+                         'sea.significant_height')
