@@ -12,19 +12,18 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The columns of a box against exact clipping, and clipping against closed forms."""
+"""The columns of a box against exact clipping."""
 
 from boat_buoyancy.physics.boat.boat import Boat
+from boat_buoyancy.physics.boat.clipping import submerged
 from boat_buoyancy.physics.boat.columns import box_hull
 from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.boat.surface import box_surface
 from boat_buoyancy.physics.forces.probe_laws import arm, wetting
 from boat_buoyancy.physics.hydrostatics.rest import rest_state, still_load
 from boat_buoyancy.physics.hydrostatics.righting_arm import righting_arms
-from boat_buoyancy.tools.chart.hull_clipping import box_surface, submerged
 import numpy as np
-import pytest
 from scipy.optimize import brentq
-from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 SPECIFIC_WEIGHT = 1025.0 * 9.81
@@ -39,9 +38,7 @@ def boat_of(size, keel_to_mass, mass, probes=(2, 2)):
 
 def surface_of(size, keel_to_mass):
     """Return the triangles of the box about the same origin."""
-    length, beam, depth = size
-    return box_surface((-length / 2, -beam / 2, -keel_to_mass),
-                       (length / 2, beam / 2, depth - keel_to_mass))
+    return box_surface(size, (0.0, 0.0, size[2] / 2 - keel_to_mass)).facets
 
 
 def placed(triangles, turn, height):
@@ -134,64 +131,3 @@ def test_more_columns_come_closer_to_the_box_past_its_deck_edge():
 
     errors = [error(count) for count in (4, 12, 36)]
     assert errors[1] < errors[0] / 3.0 and errors[2] < errors[1] / 3.0
-
-
-# Clipping on its own.
-
-def test_a_body_under_water_has_its_whole_volume_and_centre_and_one_above_none():
-    surface = box_surface((1.0, 2.0, -7.0), (3.0, 5.0, -3.0))
-    volume, moment = submerged(surface)
-    assert volume == pytest.approx(24.0, rel=1e-14)
-    np.testing.assert_allclose(moment / volume, [2.0, 3.5, -5.0], rtol=1e-14)
-    volume, moment = submerged(surface + [0.0, 0.0, 10.0])
-    assert volume == 0.0 and not moment.any()
-
-
-def test_a_cube_on_its_edge_sinks_a_triangular_prism():
-    for part in (0.1, 0.5, 0.9):
-        surface = placed(surface_of((3.0, 1.0, 1.0), 0.5), Rotation.from_euler('x', np.pi / 4),
-                         np.sqrt(0.5) * (1.0 - part))
-        volume, moment = submerged(surface)
-        depth = np.sqrt(0.5) * part
-        assert volume == pytest.approx(3.0 * depth**2, rel=1e-13)
-        np.testing.assert_allclose(moment / volume, [0.0, 0.0, -depth / 3.0], atol=1e-14)
-
-
-def test_a_finely_meshed_ball_has_the_cap_of_a_ball():
-    points = 2.0 * fibonacci(20000)
-    surface = outward(points[ConvexHull(points).simplices])
-    depth = 0.7
-    volume, moment = submerged(surface + [0.5, -0.3, 2.0 - depth])
-    assert volume == pytest.approx(np.pi * depth**2 * (6.0 - depth) / 3.0, rel=2e-3)
-    centre = 2.0 - depth - 3.0 * (4.0 - depth)**2 / (4.0 * (6.0 - depth))
-    np.testing.assert_allclose(moment / volume, [0.5, -0.3, centre], atol=2e-3)
-
-
-def test_the_parts_below_and_above_the_water_make_up_the_whole():
-    points = np.random.default_rng(2).normal(size=(40, 3)) + [0.3, -0.2, 0.1]
-    surface = outward(points[ConvexHull(points).simplices])
-    above = surface[:, ::-1] * [1.0, 1.0, -1.0]
-    whole = ConvexHull(points).volume
-    (below, low), (rest, high) = submerged(surface), submerged(above)
-    assert 0.1 * whole < below < 0.9 * whole
-    assert below + rest == pytest.approx(whole, rel=1e-13)
-    deep, moment = submerged(surface - [0.0, 0.0, 50.0])
-    assert deep == pytest.approx(whole, rel=1e-13)
-    np.testing.assert_allclose(low + high * [1.0, 1.0, -1.0],
-                               moment + [0.0, 0.0, 50.0 * whole], atol=1e-11 * whole)
-
-
-def fibonacci(count):
-    """Return points (count, 3) spread evenly over the unit ball's surface."""
-    index = np.arange(count) + 0.5
-    z, angle = 1.0 - 2.0 * index / count, np.pi * (1.0 + np.sqrt(5.0)) * index
-    radius = np.sqrt(1.0 - z * z)
-    return np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=1)
-
-
-def outward(triangles):
-    """Return the triangles of a convex body in counter-clockwise order seen from outside."""
-    middle = triangles.mean(axis=(0, 1))
-    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    inward = np.sum(normal * (triangles.mean(axis=1) - middle), axis=1) < 0.0
-    return np.where(inward[:, None, None], triangles[:, ::-1], triangles)

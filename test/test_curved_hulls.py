@@ -17,12 +17,12 @@
 from dataclasses import replace
 import math
 
+from boat_buoyancy.physics.boat.clipping import submerged
 from boat_buoyancy.physics.boat.records import readable
 from boat_buoyancy.physics.forces.load import load_at
 from boat_buoyancy.physics.hydrostatics.rest import rest_state
 from boat_buoyancy.physics.sea.waves import Sea
 from boat_buoyancy.tools.chart import hull_accuracy
-from boat_buoyancy.tools.chart.hull_clipping import submerged
 from boat_buoyancy.tools.chart.hull_shapes import BOX, nodes, SHAPES, V_HULL, WIGLEY
 from boats import undamped
 import numpy as np

@@ -20,6 +20,7 @@ from boat_buoyancy.physics.boat.boat import Boat
 from boat_buoyancy.physics.boat.columns import box_hull
 from boat_buoyancy.physics.boat.hull import Hull, probe_hull
 from boat_buoyancy.physics.boat.state import body_frame, State
+from boat_buoyancy.physics.boat.surface import box_surface
 from boat_buoyancy.physics.hydrostatics.metacentric_height import metacentric_heights
 from boat_buoyancy.physics.hydrostatics.rest import draft, floats, rest_state, still_load
 from boat_buoyancy.physics.hydrostatics.righting_arm import righting_arms, wall_sided_heel
@@ -27,7 +28,6 @@ from boat_buoyancy.physics.hydrostatics.warnings import flotation_warnings
 from boat_buoyancy.physics.rotation import from_roll_pitch_yaw
 from boat_buoyancy.physics.sea.waves import Sea
 from boat_buoyancy.tools.chart.hull_accuracy import righting_arm
-from boat_buoyancy.tools.chart.hull_clipping import box_surface
 from boats import asymmetric_boat, last_state, LAWS, reference_boat, simulate, undamped
 import numpy as np
 import pytest
@@ -253,7 +253,7 @@ def test_the_bilge_ends_the_exact_range_of_a_box_of_little_draft():
     width = np.sqrt(2.0 * beam * draft_ / np.tan(heel))
     exact = (np.cos(heel) * (beam / 2 - width / 3)
              + np.sin(heel) * (width * np.tan(heel) / 3 - keel_to_mass))
-    surface = box_surface((-length / 2, -beam / 2, 0.0), (length / 2, beam / 2, 1.0))
+    surface = box_surface((length, beam, 1.0), (0.0, 0.0, 0.5)).facets
     clipped = [righting_arm(surface, keel_to_mass, length * beam * draft_, angle)
                for angle in heel]
     np.testing.assert_allclose(clipped, exact, atol=1e-10)

@@ -18,13 +18,12 @@ from dataclasses import replace
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
 from .accuracy import difference, Run, simulated
-from .hull_clipping import submerged
 from .hull_shapes import BOX, PLACEMENTS, SHAPES
 from .table import Row
 from ...physics.boat.boat import Boat, Damping
+from ...physics.boat.clipping import level_for, submerged
 from ...physics.hydrostatics.rest import rest_state
 from ...physics.hydrostatics.righting_arm import righting_arms
 from ...physics.sea.waves import Sea
@@ -56,7 +55,7 @@ def hydrostatics_of_surface(shape):
     """
     triangles = shape.surface()
     volume = design_volume(shape)
-    draft = -_level(triangles, volume)
+    draft = level_for(triangles, volume)
     arms = [righting_arm(triangles, shape.center, volume, heel) for heel in (SMALL_HEEL, *HEELS)]
     return draft, arms[0] / math.sin(SMALL_HEEL), np.array(arms[1:])
 
@@ -75,15 +74,8 @@ def righting_arm(triangles, center, volume, heel):
     c, s = math.cos(heel), math.sin(heel)
     turned = (triangles - [0.0, 0.0, center]) @ np.array(
         [[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
-    wet, moment = submerged(turned + [0.0, 0.0, _level(turned, volume)])
+    wet, moment = submerged(turned - [0.0, 0.0, level_for(turned, volume)])
     return -moment[1] / wet
-
-
-def _level(triangles, volume):
-    """Return by how many m a surface is to be lifted until it displaces ``volume`` m^3."""
-    z = triangles[:, :, 2]
-    return brentq(lambda lift: submerged(triangles + [0.0, 0.0, lift])[0] - volume,
-                  -float(z.max()), -float(z.min()), xtol=1e-12)
 
 
 def boat_of(shape, hull, volume):
