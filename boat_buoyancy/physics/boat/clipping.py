@@ -32,7 +32,7 @@ def submerged(triangles):
     volume is the surface integral of z n_z, the moments those of x z n_z, y z n_z, z^2/2 n_z.
     """
     corners = wet_part(np.asarray(triangles, float))
-    area, total = _upward(corners), corners[:, :, 2].sum(axis=1)
+    area, total = signed_areas(corners), corners[:, :, 2].sum(axis=1)
     moment = [(area * (c.sum(axis=1) * total + (c * corners[:, :, 2]).sum(axis=1))).sum() / 12.0
               for c in np.moveaxis(corners, 2, 0)]
     return float((area * total).sum()) / 3.0, np.array(moment) * [1.0, 1.0, 0.5]
@@ -46,10 +46,17 @@ def waterplane(triangles):
     at z = 0, about the origin: it has the outline of the wet part seen from above, so they are
     those of the wet triangles' shadows, each with the sign of its downward side.
     """
-    corners = wet_part(np.asarray(triangles, float))
-    area, x = -_upward(corners), corners[:, :, :2]
-    total = x.sum(axis=1)
-    second = (np.einsum('i,ikp,ikq->pq', area, x, x)
+    return plane_moments(wet_part(np.asarray(triangles, float))[:, ::-1, :2])
+
+
+def plane_moments(triangles):
+    """
+    Return the area m^2, first moment (2,) m^3 and second moment (2, 2) m^4 of plane triangles.
+
+    ``triangles`` (n, 3, 2) m; clockwise ones count as holes.
+    """
+    area, total = signed_areas(triangles), triangles.sum(axis=1)
+    second = (np.einsum('i,ikp,ikq->pq', area, triangles, triangles)
               + np.einsum('i,ip,iq->pq', area, total, total)) / 12.0
     return float(area.sum()), area @ total / 3.0, second
 
@@ -103,13 +110,13 @@ def wet_part(triangles):
 def _displaced(triangles, level):
     """Return the volume in m^3 below a water at ``level`` m and the area in m^2 of its plane."""
     corners = wet_part(triangles - [0.0, 0.0, level])
-    area = _upward(corners)
+    area = signed_areas(corners)
     return float((area * corners[:, :, 2].sum(axis=1)).sum()) / 3.0, -float(area.sum())
 
 
-def _upward(corners):
-    """Return (n,) m^2, the areas of triangles (n, 3, 3) seen from above, negative from below."""
-    x, y, _ = np.moveaxis(corners, 2, 0)
+def signed_areas(triangles):
+    """Return (n,) m^2, the areas of triangles (n, 3, 2 or 3) seen from above, below negative."""
+    x, y = triangles[:, :, 0], triangles[:, :, 1]
     return 0.5 * ((x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0])
                   - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0]))
 
