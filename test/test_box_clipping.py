@@ -21,8 +21,8 @@ from boat_buoyancy.physics.boat.state import State
 from boat_buoyancy.physics.boat.surface import box_surface
 from boat_buoyancy.physics.forces.probe_laws import arm, wetting
 from boat_buoyancy.physics.hydrostatics.rest import floating_state
-from boat_buoyancy.physics.hydrostatics.stiffness import still_load
 from boat_buoyancy.physics.hydrostatics.righting_arm import righting_arms
+from boat_buoyancy.physics.hydrostatics.stiffness import still_load
 import numpy as np
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation

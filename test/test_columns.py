@@ -124,8 +124,9 @@ def test_columns_have_draft_and_gm_of_the_surface_and_its_righting_arms_within_w
     volume = submerged(surface.facets - [0.0, 0.0, shape.draft])[0]
     boat = boat_of(surface, probes, volume, shape.center)
     assert len(boat.hull.positions) == hulls * np.prod(probes)
+    # Triangles are not the same fore and aft: the boats lie 1e-5 rad from level at most.
     np.testing.assert_allclose(metacentric_heights(boat), exact_metacentric_heights(
-        surface, volume, shape.center), rtol=1e-9)
+        surface, volume, shape.center), rtol=1e-7)
     exact = [righting_arm(surface.facets, shape.center, volume, heel) for heel in HEELS]
     error = righting_arms(boat, HEELS) - exact
     assert np.sqrt(np.mean(error ** 2)) < (arm + height) / 100.0 * np.max(exact)

@@ -85,6 +85,7 @@ class Surface:
                   + np.einsum('i,ip,iq->pq', self._cones, total, total)) / (20.0 * self.volume)
         away = self.center - self._middle
         second -= np.outer(away, away)
+        second = 0.5 * (second + second.T)
         return np.trace(second) * np.eye(3) - second
 
     @cached_property

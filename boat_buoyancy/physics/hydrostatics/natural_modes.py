@@ -129,8 +129,11 @@ def _mode(rest, squared, shape):
     force[RESTORED] = rest.stiffness[RESTORED, RESTORED] @ shape
     # All six coordinates of the mode: M phi omega^2 = K phi.
     shape = np.linalg.solve(rest.mass, force)
-    frequency = float(np.sqrt(squared))
-    ratio = shape @ rest.damping @ shape / (2 * frequency * (shape @ rest.mass @ shape))
+    frequency, moved = float(np.sqrt(squared)), shape @ rest.mass @ shape
+    if not moved > 0.0:
+        # So slow that no number is left of it.
+        return Mode(None, None, None)
+    ratio = shape @ rest.damping @ shape / (2 * frequency * moved)
     return Mode(frequency, 2 * np.pi / frequency, float(ratio))
 
 

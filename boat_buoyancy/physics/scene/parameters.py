@@ -224,8 +224,8 @@ def _table():
                   'x, y, z. A higher z drops it from there.', at_least=-1e9, at_most=1e9,
                   lengths=(2, 3), **fixed),
         Parameter('start.orientation', 'float_array', None, 'rad',
-                  'Roll, pitch, yaw at the start; without it as the boat lies at rest. Higher roll '
-                  'lowers starboard, higher pitch the bow, higher yaw turns left.',
+                  'Roll, pitch, yaw at the start; without it as the boat lies at rest. Higher '
+                  'roll lowers starboard, higher pitch the bow, higher yaw turns left.',
                   at_least=-1e3, at_most=1e3, lengths=(3,), **fixed),
         Parameter('start.velocity', 'float_array', (0.0, 0.0, 0.0), 'm/s',
                   'Velocity of the body frame at the start: ahead, to port, up in body axes. '

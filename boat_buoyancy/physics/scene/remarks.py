@@ -107,8 +107,8 @@ def panel_warnings(boat, sea):
         return ()
     return (f'The panels are too large for the shortest waves: {sea.shortest_length:.3g} m long, '
             f'they want edges of at most {needed:.2g} m, and more panels than {MAX_PANELS} are '
-            f'not made, so edges are up to {hull.panels.longest_edge:.2g} m and the short waves push '
-            'the boat wrongly; take longer waves or a smaller hull.',)
+            f'not made, so edges are up to {hull.panels.longest_edge:.2g} m and the short waves '
+            'push the boat wrongly; take longer waves or a smaller hull.',)
 
 
 def sea_warnings(sea):

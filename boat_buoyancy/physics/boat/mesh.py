@@ -1,2 +1,0 @@
-def read_mesh(path, scale=1.0):
-    raise NotImplementedError
