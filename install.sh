@@ -1,7 +1,7 @@
 #!/bin/sh
 # Install boat_buoyancy into .venv beside this file, on a machine that has Python and no ROS.
 # `./install.sh --help` says how. It comes to `python3 -m venv .venv && .venv/bin/pip install
-# '.[ros,fast]'`, and also works with the Python of a fresh Debian or Ubuntu, which has no pip.
+# '.[ros,fast,mesh]'`, and also works with the Python of a fresh Debian or Ubuntu, which has no pip.
 set -eu
 cd -- "$(dirname -- "$0")"
 
@@ -16,6 +16,7 @@ needs no root. Extras, with commas between:
   chart  the command-line tools with plots and charts; they need no ROS
   test   what the tests need
   fast   Numba, which compiles the step; ros and chart take it along
+  mesh   trimesh, which reads hulls from mesh files; ros and chart take it along
 
   ./install.sh ros         the node
   ./install.sh ros,test    the node, and what the tests need
@@ -56,18 +57,22 @@ esac
 [ $# -le 1 ] || fail "expected one list of extras with commas between, got '$*' (try --help)"
 for extra in $(printf '%s' "$extras" | tr , ' '); do
   case $extra in
-    ros|chart|test|fast) ;;
-    *) fail "expected extras out of ros, chart, test and fast, got '$extra' (try --help)" ;;
+    ros|chart|test|fast|mesh) ;;
+    *) fail "expected extras out of ros, chart, test, fast and mesh, got '$extra' (try --help)" ;;
   esac
 done
 case ",$extras," in
-  *,fast,*) ;;
-  *,ros,*|*,chart,*) extras=$extras,fast ;;
+  *,ros,*|*,chart,*)
+    for extra in fast mesh; do
+      case ",$extras," in *,$extra,*) ;; *) extras=$extras,$extra ;; esac
+    done
+    ;;
 esac
 # MB of each on Linux x86_64; the tests draw too.
 size=105
 case ",$extras," in *,ros,*) size=$((size + 165)) ;; esac
 case ",$extras," in *,fast,*) size=$((size + 205)) ;; esac
+case ",$extras," in *,mesh,*|*,test,*) size=$((size + 10)) ;; esac
 case ",$extras," in *,test,*) size=$((size + 265)) ;; *,chart,*) size=$((size + 245)) ;; esac
 case ",$extras," in
   *,ros,*)

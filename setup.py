@@ -28,6 +28,7 @@ setup(
         ('share/' + package_name, ['package.xml']),
         ('share/' + package_name + '/config',
          sorted(glob('config/*.yaml') + glob('config/*.rviz'))),
+        ('share/' + package_name + '/config/hulls', sorted(glob('config/hulls/*.*'))),
         ('share/' + package_name + '/launch', sorted(glob('launch/*.py'))),
     ],
     python_requires='>=3.10',
@@ -38,7 +39,9 @@ setup(
         'chart': ['matplotlib', 'scipy'],
         # Compiles the step; without it everything works, slower.
         'fast': ['numba'],
-        'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy'],
+        # Reads hulls from mesh files.
+        'mesh': ['trimesh'],
+        'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy', 'trimesh'],
     },
     zip_safe=True,
     maintainer='boat_buoyancy maintainers',

@@ -22,6 +22,8 @@ from scipy.optimize import brentq
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
+pytestmark = pytest.mark.plain
+
 BAR = box_surface((3.0, 1.0, 1.0)).facets
 
 

@@ -29,6 +29,8 @@ import pytest
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
+pytestmark = pytest.mark.plain
+
 DENSITY, GRAVITY = 1025.0, 9.81
 HEELS = np.radians([5.0, 10.0, 15.0, 20.0, 25.0, 30.0])
 SIZE = (20.0, 6.0, 3.0)

@@ -68,10 +68,11 @@ def test_a_wrong_extra_gets_one_line_before_anything_is_installed(install, words
 
 
 @pytest.mark.parametrize('asked, installed', [
-    pytest.param([], 'ros,fast', marks=no_wheels_of_ros),
-    pytest.param(['ros,test'], 'ros,test,fast', marks=no_wheels_of_ros),
-    (['chart'], 'chart,fast'), (['fast,chart'], 'fast,chart'), (['test'], 'test')])
-def test_ros_and_chart_take_numba_along_and_sizes_are_told(install, asked, installed):
+    pytest.param([], 'ros,fast,mesh', marks=no_wheels_of_ros),
+    pytest.param(['ros,test'], 'ros,test,fast,mesh', marks=no_wheels_of_ros),
+    (['chart'], 'chart,fast,mesh'), (['mesh,chart'], 'mesh,chart,fast'), (['fast'], 'fast'),
+    (['test'], 'test')])
+def test_ros_and_chart_take_numba_and_trimesh_along_and_sizes_are_told(install, asked, installed):
     run, folder = install
     python = folder / '.venv' / 'bin' / 'python'
     python.parent.mkdir(parents=True)
