@@ -27,6 +27,9 @@ from ..boat.hull import LAWS
 from ..forces.probe_laws import wetting
 from ..rotation import rotation_matrix
 
+# A list or trim in degrees below which nobody sees one.
+LEAST_LIST = 0.5
+
 
 def flotation_warnings(boat):
     """Return what a user should know of a `Boat` at rest in still water: a tuple of sentences."""
@@ -39,7 +42,8 @@ def flotation_warnings(boat):
         rest.floating_state(boat), rest.rest_state(boat)))
     carries = boat.hull.max_force > 0.0
     full = carries & (settled >= 1.0 - NEGLIGIBLE)
-    left = carries & (settled <= 0.0) & (level > 0.0)
+    # The sides of a shape may well be dry.
+    left = carries & (settled <= 0.0) & (level > 0.0) & (boat.hull.surface is None)
     sentences = [*_overturning(boat), *_listing(boat)]
     if boat.hull.panels is not None:
         return tuple(sentences)
@@ -93,8 +97,8 @@ def _overturning(boat):
 
 def _listing(boat):
     """Yield a sentence for a boat that does not lie level."""
-    roll, pitch = np.degrees(rest.rest_attitude(boat)).round(2).tolist()
-    if not roll and not pitch:
+    roll, pitch = (np.degrees(rest.rest_attitude(boat)).round(2) + 0.0).tolist()
+    if max(abs(roll), abs(pitch)) < LEAST_LIST:
         return
     torque = still_load(boat, rest.floating_state(boat))[0].torque
     places = [f'{abs(arm):.3g} m {word if arm > 0 else opposite}'
@@ -105,8 +109,8 @@ def _listing(boat):
     turned = 'turns over and rests' if rest.turns_over(boat) else 'rests'
     yield (f'Level is not an equilibrium: the lift acts {" and ".join(places)} of the centre of '
            f'mass, so the boat {turned} at roll {roll:g} and pitch {pitch:g} degrees (positive '
-           'roll is starboard down, positive pitch bow down); move boat.center_of_mass there or '
-           'change probes.weights.')
+           'roll is starboard down, positive pitch bow down); move boat.center_of_mass there, or '
+           'change probes.weights if there are any.')
 
 
 def _shares(boat, state):

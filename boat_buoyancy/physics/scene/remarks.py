@@ -17,6 +17,7 @@
 import numpy as np
 
 from . import parameters
+from .wave_sampling import sampling_warnings
 from ..boat.hull import MAX_PANELS, PANELS_A_WAVE
 from ..hydrostatics.warnings import flotation_warnings
 
@@ -94,7 +95,7 @@ def remarks(boat, sea, given, in_force):
         if name in given and abs(largest) > FULL_TURN:
             warnings.append(f'{name} has an angle of {largest:g}, more than a full turn: angles '
                             'are in radians, and this looks like degrees.')
-    return (*warnings, *sea_warnings(sea))
+    return (*warnings, *sea_warnings(sea), *sampling_warnings(boat, sea, in_force))
 
 
 def panel_warnings(boat, sea):
