@@ -30,11 +30,12 @@ def wigley(length=20.0, beam=4.0, draft=1.25, depth=2.5):
 
     Half breadth = beam / 2 (1 - (2 x / length)^2) (1 - (1 - z / draft)^2).
     """
-    x = 0.5 * length * np.linspace(-1.0, 1.0, 19)
+    x = 0.5 * length * np.linspace(-1.0, 0.0, 10)
     z = np.append(draft * np.linspace(0.0, 1.0, 8), depth)
     section = 1.0 - np.clip(1.0 - z / draft, 0.0, None) ** 2
     y = 0.5 * beam * np.outer(1.0 - (2.0 * x / length) ** 2, section)
-    return symmetric_body(np.stack(np.broadcast_arrays(x[:, None], y, z), axis=-1))
+    aft = symmetric_body(np.stack(np.broadcast_arrays(x[:, None], y, z), axis=-1))
+    return np.concatenate([aft, aft[:, ::-1] * [-1.0, 1.0, 1.0]])
 
 
 def rigid_inflatable(length=4.85, beam=1.95, tube=0.45, deadrise=24.0):
@@ -69,7 +70,7 @@ def symmetric_body(port):
     Return the triangles (n, 3, 3) of a body from the port side (i, j, 3) of its sections.
 
     Sections from aft, their points from the keel to the deck.  The first is closed as a fan from
-    its last point but one; the last is one point or a vertical line.
+    its last point but one; the last is open, unless it is a point.
     """
     starboard = port * [1.0, -1.0, 1.0]
     deck = np.stack([port[:, -1], starboard[:, -1]], axis=1)

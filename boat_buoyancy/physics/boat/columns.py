@@ -52,10 +52,12 @@ def columns_of(surface, probes, volume):
     piece of its waterplane; ``volume`` m^3 that it displaces level at rest.  One that sinks, as
     ``volume`` is all of it or more, is taken as half under.
 
-    Columns stand at Gauss points on the waterplane and, fewer, beside it; their ends are where the
-    vertical line meets the surface.  Areas, places and depths are then put right: exact are area
-    and first and second moments of each piece of the waterplane and, of the whole, the displaced
-    volume and its centre; with them draft, trim and both metacentric heights.
+    Columns stand at Gauss points on the waterplane and, fewer, beside it (flare, overhang, a
+    bridge deck, a bulb); their ends are where the vertical line meets the surface.  Areas, places
+    and depths are then put right.  Volume below and above the water and area of the waterplane are
+    exact at any number of columns; the waterplane's first and second moments and the centre of
+    buoyancy from 2 x 3 columns on for hulls as boats have them, and with those draft, trim and
+    both metacentric heights.
     """
     whole = surface.volume
     level = level_for(surface.facets, volume if volume < whole else 0.5 * whole)
