@@ -130,12 +130,12 @@ def _joined(numbers):
 def work(arguments):
     """Do what the arguments ask for; ValueError, OSError, SimulationError for bad input."""
     scene = load_scene(arguments.scene)
+    check_outputs(arguments)
     integrator = arguments.integrator or scene.integrator
     if integrator in INTEGRATORS and (compiling := notice(march_by(integrator))):
         print(f'{PROGRAM}: {compiling}', file=sys.stderr)
     simulation = scene.simulation(integrator=arguments.integrator, rate=arguments.rate,
                                   substeps=arguments.substeps)
-    check_outputs(arguments)
     start = perf_counter()
     run = simulation.run(arguments.duration, arguments.thrust)
     seconds = perf_counter() - start

@@ -89,5 +89,5 @@ def _between_probes(positions, amplitude, k, shortest):
     if unseen @ unseen <= TOLD ** 2 * (amplitude @ amplitude):
         return ()
     return (f'The probes are too far apart for the waves: {shortest}, and neighbours are up to '
-            f'{widest:.3g} m apart, more than half of that, so waves pass between them; add probes '
-            'in between (probes.positions).',)
+            f'{widest:.3g} m apart, more than half of that, so waves pass between them; add '
+            'probes in between (probes.positions).',)
