@@ -27,12 +27,13 @@ import pytest
 
 DEFAULT = Path(__file__).parents[1] / 'config' / 'default.yaml'
 KINDS = {'float': float, 'int': int, 'bool': bool, 'string': str, 'float_array': tuple,
-         'int_array': tuple}
+         'int_array': tuple, 'string_array': tuple}
 DERIVED = {'boat.inertia', 'hull.bottom', 'probes.positions', 'probes.weights', 'probes.law',
-           'damping.probe', 'sea.waves'}
+           'damping.probe', 'sea.waves', 'thrusters.names', 'thrusters.positions',
+           'thrusters.directions', 'thrusters.limits'}
 # With these there is nothing to raise.
 NO_NUMBER = {'integrator', 'world_frame', 'body_frame', 'publish_clock', 'hull.shape',
-             'probes.law'}
+             'probes.law', 'thrusters.names'}
 # What the node may change while it runs.
 LIVE = ('boat.mass', 'boat.inertia', 'probes.floatiness', 'probes.stiffness', 'probes.weights',
         'damping.', 'sea.', 'thrust.timeout')
@@ -132,6 +133,9 @@ def wrong_values(parameter):
     """Return values of a wrong kind, alone and in every place of a list, and wrong lists."""
     if parameter.kind == 'bool':
         return [0, 1, 1.0, 'true', 'yes', None, [True]]
+    if parameter.kind == 'string_array':
+        return ['left', ['left', 'left'], [''], ['1st'], ['a b'], ['a/b'], ['_a'], [5], [True],
+                [['left']], 5, None, {}]
     if parameter.kind == 'string':
         return ['', True, 5, None, ['leapfrog'], 'no such/ word', '/slash', 'a\tb']
     numbers = [math.nan, math.inf, -math.inf, True, '1', 'word', None, 10 ** 400, {}]
@@ -222,7 +226,8 @@ def test_the_lines_left_out_of_the_default_file_show_what_is_derived():
     shown = parameter_file.parse(uncommented(DEFAULT.read_text(encoding='utf-8')))
     assert list(shown) == list(PARAMETERS)
     example = {name: shown.pop(name) for name in list(shown)
-               if name.startswith('probes.') and name != 'probes.law' or name == 'sea.waves'}
+               if name.startswith(('probes.', 'thrusters.')) and name != 'probes.law'
+               or name == 'sea.waves'}
     default = load_scene({})
     for name in DERIVED - set(example):
         derived = default.values[name]
@@ -233,4 +238,6 @@ def test_the_lines_left_out_of_the_default_file_show_what_is_derived():
         assert shown[name] == derived
     for name in ('probes.floatiness', 'probes.stiffness'):
         assert example[name] == PARAMETERS[name].default
-    assert len(load_scene(example).sea.waves) == 1
+    shown = load_scene(example)
+    assert len(shown.sea.waves) == 1
+    assert [thruster.name for thruster in shown.thrusters] == ['left', 'right']

@@ -26,7 +26,9 @@ RCLPY = {'/parameter_events', '/rosout'}
 @pytest.fixture(scope='module')
 def graph():
     """Return topics in and out, and services, of a node with everything switched on."""
-    with BoatProcess({'publish_clock': True}) as boat, Probe(boat.namespace) as probe:
+    everything = {'publish_clock': True, 'thrusters.names': ['left'],
+                  'thrusters.positions': [-1.8, 0.0, -0.4]}
+    with BoatProcess(everything) as boat, Probe(boat.namespace) as probe:
         boat.wait_for_log('draft')
 
         def ask():
@@ -45,7 +47,7 @@ def graph():
 
 def readable(namespace, names_and_types, prefix):
     """Return {name as the README has it: type}."""
-    return {name.removeprefix(namespace + prefix): types[0]
+    return {name.removeprefix(namespace + prefix).replace('/left/', '/<name>/'): types[0]
             for name, types in names_and_types.items() if name not in RCLPY}
 
 

@@ -38,6 +38,7 @@ from .parameters import LiveParameters, ParameterNode
 from .reports import Reports
 from .session import Session
 from .thrust import read_wrench
+from .thrusters import ThrusterInput
 from .wave_messages import WavesInput, WavesOutput
 from ..physics.compiled import notice
 from ..physics.scene.parameters import NODE_NAME
@@ -80,6 +81,8 @@ class BoatNode(ParameterNode):
         guarded = self._reports.complaints.guarded
         self.create_subscription(
             WrenchStamped, 'thrust', guarded('thrust', self._on_thrust), qos.THRUST)
+        for thruster in scene.thrusters:
+            ThrusterInput(self, thruster.name, self.session, guarded, time.monotonic)
         self.create_subscription(PoseWithCovarianceStamped, 'initialpose',
                                  guarded('initialpose', self._on_place), qos.REQUEST)
         self.create_service(Trigger, '~/reset', self._on_reset)

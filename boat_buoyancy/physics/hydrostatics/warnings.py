@@ -25,7 +25,7 @@ from . import rest
 from .metacentric_height import metacentric_heights
 from .natural_modes import equilibrium_stiffness, RESTORED
 from ..boat.hull import LAWS
-from ..boat.state import State
+from ..boat.state import body_frame, State
 from ..forces.probe_laws import wetting
 from ..rotation import from_roll_pitch_yaw, rotation_matrix
 
@@ -65,6 +65,18 @@ def flotation_warnings(boat):
             'it dips in; lower its weight in probes.weights (a hull: make hull.size smaller), or '
             'move boat.center_of_mass towards it.')
     return tuple(sentences)
+
+
+def dry_thruster_warnings(boat, thrusters):
+    """Return a sentence for each `Thruster` that is out of still water at rest, in a tuple."""
+    if not thrusters or not rest.floats(boat):
+        return ()
+    origin = body_frame(boat, rest.rest_state(boat))[0][2]
+    heights = {thruster.name: origin + thruster.position[2] for thruster in thrusters}
+    return tuple(
+        f'The thruster {name} is {height:.3g} m above the water at rest, where it gives nothing; '
+        'lower its z in thrusters.positions, that of the propeller.'
+        for name, height in heights.items() if height >= 0.0)
 
 
 def _sinking(boat):

@@ -37,9 +37,9 @@ class Parameter:
     """
     One parameter.
 
-    Main arguments: ``kind`` is float, int, bool, string, float_array or int_array; ``default``
-    None means derived from others or none at all, the description says which; ``unit`` of a
-    number, '-' for none; ``description`` ends with what changes when it is raised.
+    Main arguments: ``kind`` is float, int, bool, string, float_array, int_array or string_array;
+    ``default`` None means derived from others or none at all, the description says which;
+    ``unit`` of a number, '-' for none; ``description`` ends with what changes when it is raised.
     Other arguments: ``above`` (not reached), ``at_least`` and ``at_most`` bound every number;
     ``lengths`` allowed of an array, () = any; ``choices`` of a string; ``read_only`` while the
     node runs.
@@ -216,8 +216,25 @@ def _table():
                   'starts turning faster.', at_least=-1e6, at_most=1e6,
                   lengths=(3,), **fixed),
         Parameter('thrust.timeout', 'float', 0.5, 's',
-                  'Time without a wrench before thrust falls to zero; 0 = hold the last one. '
-                  'Higher bridges longer gaps.', at_least=0.0, at_most=1e6),
+                  'Time without a wrench, or without a thrust for a thruster, before what it '
+                  'asked for falls to zero; 0 = hold the last one. Higher bridges longer gaps.',
+                  at_least=0.0, at_most=1e6),
+        Parameter('thrusters.names', 'string_array', None, '',
+                  'Name of each thruster, which is driven by topics of its own; without it none.',
+                  **fixed),
+        Parameter('thrusters.positions', 'float_array', None, 'm',
+                  'x, y, z of every thruster in the body frame, one flat list. Wider apart turns '
+                  'harder; out of the water it gives nothing.',
+                  at_least=-1e6, at_most=1e6, **fixed),
+        Parameter('thrusters.directions', 'float_array', None, '-',
+                  'x, y, z of where each pushes the boat, of any length; without it ahead. Higher '
+                  'x, y, z push more ahead, to port, up.', at_least=-1e6, at_most=1e6, **fixed),
+        Parameter('thrusters.limits', 'float_array', None, 'N',
+                  'Least and greatest thrust of each, one flat list; without it no limits. Higher '
+                  'pushes harder at full power.', at_least=-1e15, at_most=1e15, **fixed),
+        Parameter('thrusters.lag', 'float', 0.0, 's',
+                  'Time constant of their thrust; 0 = at once. Higher follows more slowly.',
+                  at_least=0.0, at_most=1e6, **fixed),
     )
 
 

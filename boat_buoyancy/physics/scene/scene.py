@@ -21,11 +21,13 @@ import os
 import numpy as np
 
 from . import parameter_file, parameters
-from .build import assembled_boat, assembled_sea, assembled_start
+from .build import (AHEAD, assembled_boat, assembled_sea, assembled_start, assembled_thrusters,
+                    NO_LIMITS)
 from .parameter_values import checked
 from ..boat.boat import Boat
 from ..boat.state import PARTS, State
-from ..hydrostatics.warnings import flotation_warnings
+from ..forces.thrusters import Propulsion
+from ..hydrostatics.warnings import dry_thruster_warnings, flotation_warnings
 from ..sea.waves import Sea
 from ..step_size.plan import Plan, plan
 from ..stepping.fleet import Fleet
@@ -45,9 +47,10 @@ class Scene:
 
     Main arguments: ``boat``, ``sea``, ``start`` (`State` of the centre of mass); ``rate`` Hz,
     ``integrator`` and ``substeps`` as asked for, 0 = chosen.
-    Other arguments: ``world_frame``, ``body_frame``, ``thrust_timeout`` s; ``warnings``,
-    sentences; ``given``, the parameters that were given, {name: value}; ``values``, every
-    parameter in force, what was derived filled in: given again they make the same scene.
+    Other arguments: ``world_frame``, ``body_frame``, ``thrust_timeout`` s; ``thrusters``, a tuple
+    of `Thruster`; ``warnings``, sentences; ``given``, the parameters that were given,
+    {name: value}; ``values``, every parameter in force, what was derived filled in: given again
+    they make the same scene.
     """
 
     boat: Boat
@@ -59,6 +62,7 @@ class Scene:
     world_frame: str
     body_frame: str
     thrust_timeout: float
+    thrusters: tuple
     warnings: tuple
     given: dict
     values: dict
@@ -80,6 +84,10 @@ class Scene:
             self.boat, self.sea, self.start if state is None else state, rate=rate,
             integrator=chosen.integrator, substeps=chosen.substeps,
             warnings=self.warnings + tuple(chosen.warnings))
+
+    def propulsion(self) -> Propulsion:
+        """Return the thrusters of the scene, ready to drive a `Simulation` of it."""
+        return Propulsion(self.thrusters)
 
     def plan(self, integrator: str | None = None, rate: float | None = None,
              substeps: int | None = None, allow_unstable: bool = False) -> Plan:
@@ -162,10 +170,12 @@ def scene_from_values(values):
     _check_together(given, in_force)
 
     boat, sea = assembled_boat(in_force), assembled_sea(in_force)
+    thrusters = assembled_thrusters(in_force)
     return Scene(
         boat, sea, assembled_start(boat, in_force), in_force['rate'], in_force['integrator'],
         in_force['substeps'], in_force['world_frame'], in_force['body_frame'],
-        in_force['thrust.timeout'], _warnings(boat, sea, given, in_force), given,
+        in_force['thrust.timeout'], thrusters,
+        (*_warnings(boat, sea, given, in_force), *dry_thruster_warnings(boat, thrusters)), given,
         _complete(boat, given, in_force))
 
 
@@ -249,6 +259,8 @@ def _without_effect(in_force):
     if in_force['probes.positions'] is not None:
         yield ('water_density', 'probes.floatiness sets the lift of probes, and the density of '
                'water that of a hull shape')
+    if not in_force['thrusters.names']:
+        yield 'thrusters.lag', 'there is no thruster: give thrusters.names'
     if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:
         for name in ('sea.direction', 'sea.components', 'sea.seed'):
             yield name, ('it shapes an irregular sea, and there is none: give sea.sea_state or '
@@ -257,6 +269,7 @@ def _without_effect(in_force):
 
 def _complete(boat, given, in_force):
     """Return every parameter in force, with derived ones as they were derived."""
+    count = len(in_force['thrusters.names'] or ())
     derived = {
         'boat.inertia': tuple(float(boat.inertia[i]) for i in (
             (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))),
@@ -264,7 +277,11 @@ def _complete(boat, given, in_force):
         'hull.bottom': float(boat.hull.positions[0, 2]),
         'probes.weights': (1.0,) * len(boat.hull.positions),
         'probes.law': boat.hull.law,
-        'sea.waves': ()}
-    other = 'hull.' if 'probes.positions' in given else PROBES_ONLY
+        'sea.waves': (),
+        'thrusters.directions': AHEAD * count,
+        'thrusters.limits': NO_LIMITS * count}
+    absent = ('hull.',) if 'probes.positions' in given else PROBES_ONLY
+    if not count:
+        absent = (*absent, 'thrusters.')
     return {name: derived[name] if value is None else value
-            for name, value in in_force.items() if not name.startswith(other)}
+            for name, value in in_force.items() if not name.startswith(absent)}
