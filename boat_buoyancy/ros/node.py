@@ -36,6 +36,7 @@ from .markers import Markers
 from .messages import ClockOutput, Outputs
 from .parameters import LiveParameters, ParameterNode
 from .reports import Reports
+from .sensors import sensors_of
 from .session import Session
 from .thrust import read_wrench
 from .thrusters import ThrusterInput
@@ -74,7 +75,8 @@ class BoatNode(ParameterNode):
         for sentence in startup.remarks(self, given, scene.values):
             self.get_logger().warning(sentence)
 
-        self._outputs, self._markers = Outputs(self, scene), Markers(self, scene)
+        self._outputs = Outputs(self, scene, sensors_of(self, scene))
+        self._markers = Markers(self, scene)
         self._clock_output = ClockOutput(self) if self._own_clock else None
         self._waves_output = WavesOutput(self)
         self._waves_input = WavesInput(self, self._reports.complaints, self._on_waves)

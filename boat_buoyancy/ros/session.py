@@ -42,7 +42,8 @@ class Session:
     Main arguments: ``scene`` a `Scene`; ``start`` ns, the stamp of step 0.
     Public: ``scene``; ``simulation``; ``sea``, as given, its time 0 that of the stamps;
     ``thrust`` a `ThrustLatch`; ``thrusters`` `ThrusterLatches`; ``propulsion``, what they give;
-    ``fault``, why the motion was stopped, or None.
+    ``wrench`` (6), the thrust of the last period, or None; ``fault``, why the motion was stopped,
+    or None.
     """
 
     def __init__(self, scene, start=0):
@@ -51,7 +52,7 @@ class Session:
         self.thrust = ThrustLatch(scene.thrust_timeout)
         self.propulsion = scene.propulsion()
         self.thrusters = ThrusterLatches(self.propulsion.thrusters, scene.thrust_timeout)
-        self.fault = None
+        self.fault = self.wrench = None
         # A scene's centre of mass cannot change while it runs.
         self._center_of_mass = tuple(scene.boat.center_of_mass.tolist())
         self._timeline = Timeline(Fraction(scene.rate), start)
@@ -92,7 +93,8 @@ class Session:
             else:
                 simulation.sea = self._clocked(self.sea)
         try:
-            simulation.step(self._push(now))
+            self.wrench = self._push(now)
+            simulation.step(self.wrench)
         except SimulationError as error:
             self.fault = str(error)
             return False
@@ -104,7 +106,7 @@ class Session:
         self.thrust.clear()
         self.thrusters.clear()
         self.propulsion.stop()
-        self.fault = None
+        self.fault = self.wrench = None
 
     def place(self, x, y, yaw):
         """Put the boat at rest at x, y m, heading yaw rad, level and floating at its draft."""

@@ -235,6 +235,45 @@ def _table():
         Parameter('thrusters.lag', 'float', 0.0, 's',
                   'Time constant of their thrust; 0 = at once. Higher follows more slowly.',
                   at_least=0.0, at_most=1e6, **fixed),
+        Parameter('imu.rate', 'float', 100.0, 'Hz',
+                  'Messages of the IMU per second, at most one a period; 0 = no IMU. Higher '
+                  'follows quick motion.', at_least=0.0, at_most=1e5, **fixed),
+        Parameter('imu.position', 'float_array', (0.0, 0.0, 0.0), 'm',
+                  'Where it sits in the body frame, its axes those of the boat. Higher feels '
+                  'more of roll and pitch.', at_least=-1e6, at_most=1e6, lengths=(3,), **fixed),
+        Parameter('imu.accelerometer_noise', 'float', 0.0, 'm/s²',
+                  'Standard deviation of white noise on each axis. Higher is noisier.',
+                  at_least=0.0, at_most=1e6, **fixed),
+        Parameter('imu.gyroscope_noise', 'float', 0.0, 'rad/s',
+                  'Standard deviation of white noise on each axis. Higher is noisier.',
+                  at_least=0.0, at_most=1e6, **fixed),
+        Parameter('imu.orientation_noise', 'float', 0.0, 'rad',
+                  'Standard deviation of white noise of the attitude about each axis. Higher is '
+                  'noisier.', at_least=0.0, at_most=1.0, **fixed),
+        Parameter('imu.seed', 'int', 1, '-',
+                  'Chooses the noise: same seed, same numbers. Another is other noise of the same '
+                  'kind.', at_least=0, at_most=2 ** 63 - 1, **fixed),
+        Parameter('fix.rate', 'float', 10.0, 'Hz',
+                  'Messages of the satellite receiver per second, at most one a period; 0 = no '
+                  'receiver. Higher follows quick motion.', at_least=0.0, at_most=1e5, **fixed),
+        Parameter('fix.position', 'float_array', (0.0, 0.0, 0.0), 'm',
+                  'Where its antenna is in the body frame. Higher swings more as the boat rolls.',
+                  at_least=-1e6, at_most=1e6, lengths=(3,), **fixed),
+        Parameter('fix.latitude', 'float', 0.0, 'deg',
+                  "Latitude of the world's origin, on the ellipsoid WGS84. Higher is farther "
+                  'north.', at_least=-90.0, at_most=90.0, **fixed),
+        Parameter('fix.longitude', 'float', 0.0, 'deg',
+                  "Longitude of the world's origin. Higher is farther east.",
+                  at_least=-180.0, at_most=180.0, **fixed),
+        Parameter('fix.altitude', 'float', 0.0, 'm',
+                  'Height of the mean water level there above the ellipsoid. Higher adds to every '
+                  'altitude.', at_least=-1e6, at_most=1e6, **fixed),
+        Parameter('fix.noise', 'float_array', (0.0, 0.0), 'm',
+                  'Standard deviation of white noise, horizontal on each axis and vertical. '
+                  'Higher is noisier.', at_least=0.0, at_most=1e6, lengths=(2,), **fixed),
+        Parameter('fix.seed', 'int', 1, '-',
+                  'Chooses the noise: same seed, same numbers. Another is other noise of the same '
+                  'kind.', at_least=0, at_most=2 ** 63 - 1, **fixed),
     )
 
 

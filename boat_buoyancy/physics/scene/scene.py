@@ -233,6 +233,9 @@ def _warnings(boat, sea, given, in_force):
             'damping.probe: 0.0 for the drag of a measured vehicle alone.')
     warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
                  if name in given and given[name] != parameters.PARAMETERS[name].default]
+    warnings += [f'{name} is {given[name]:g} Hz and rate is {in_force["rate"]:g} Hz: there is at '
+                 f'most one message a period; raise rate, or lower {name}.'
+                 for name in ('imu.rate', 'fix.rate') if given.get(name, 0.0) > in_force['rate']]
     for name, angles in (('sea.waves', sea.waves[:, 2]),
                          ('sea.direction', [in_force['sea.direction']]),
                          ('start.orientation', in_force['start.orientation'])):
