@@ -125,12 +125,13 @@ def test_a_sea_state_goes_with_every_scene_that_has_no_sea_of_its_own(start, sce
 
 def test_arguments_reach_the_scene(start):
     boat, = start(x='3.0', yaw='1.5', sea_state='4', publish_clock='true', time_factor='2',
-                  namespace='red')
+                  namespace='red', publish_tf='true')
     scene = scene_of(boat)
     assert boat.namespace == 'red'
     assert scene.values['start.position'] == (3.0, 0.0)
     assert scene.values['start.orientation'] == (0.0, 0.0, 1.5)
     assert (scene.values['publish_clock'], scene.values['time_factor']) == (True, 2.0)
+    assert scene.values['publish_tf'] is True
     assert len(scene.sea.waves) == 16
 
 

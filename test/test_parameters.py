@@ -33,7 +33,7 @@ DERIVED = {'boat.inertia', 'hull.bottom', 'probes.positions', 'probes.weights', 
            'thrusters.directions', 'thrusters.limits'}
 # With these there is nothing to raise.
 NO_NUMBER = {'integrator', 'world_frame', 'body_frame', 'publish_clock', 'hull.shape',
-             'probes.law', 'thrusters.names'}
+             'probes.law', 'thrusters.names', 'frame_prefix', 'publish_tf', 'map_frame'}
 # What the node may change while it runs.
 LIVE = ('boat.mass', 'boat.inertia', 'probes.floatiness', 'probes.stiffness', 'probes.weights',
         'damping.', 'sea.', 'thrust.timeout')
@@ -137,7 +137,8 @@ def wrong_values(parameter):
         return ['left', ['left', 'left'], [''], ['1st'], ['a b'], ['a/b'], ['_a'], [5], [True],
                 [['left']], 5, None, {}]
     if parameter.kind == 'string':
-        return ['', True, 5, None, ['leapfrog'], 'no such/ word', '/slash', 'a\tb']
+        return [*[''] * (parameter.default != ''), True, 5, None, ['leapfrog'], 'no such/ word',
+                '/slash', 'a\tb']
     numbers = [math.nan, math.inf, -math.inf, True, '1', 'word', None, 10 ** 400, {}]
     if parameter.kind.startswith('int'):
         numbers += [1.0, 1.5, 10 ** 30]
@@ -164,7 +165,8 @@ def test_every_choice_is_taken_and_a_frame_is_any_word():
         if parameter.kind == 'string':
             for word in parameter.choices or ('map', 'boat/base_link', 'y'):
                 assert checked(name, word) == word
-            assert parameter.choices or name in ('world_frame', 'body_frame')
+            assert parameter.choices or name in (
+                'world_frame', 'body_frame', 'frame_prefix', 'map_frame')
     assert checked('publish_clock', True) is True and checked('publish_clock', False) is False
 
 

@@ -77,10 +77,11 @@ class Outputs:
     The publishers of every period.
 
     Main arguments: ``node``; ``scene``, for the frames and the number of probes; ``sensors``,
-    each a `Sensor`.  ``publish`` sends the present state.
+    each a `Sensor`; ``more`` topics, (publisher, message, fill) each.  ``publish`` sends the
+    present state.
     """
 
-    def __init__(self, node, scene, sensors):
+    def __init__(self, node, scene, sensors=(), more=()):
         """Create the publishers and their messages."""
         self._sensors = sensors
         world, body = scene.world_frame, scene.body_frame
@@ -94,6 +95,7 @@ class Outputs:
                 ('odom', odometry, _fill_odometry),
                 ('probe_depth', Float64MultiArray(), _fill_depths),
                 ('probes', _cloud(world, len(scene.boat.hull.positions)), _fill_cloud))]
+        self._topics += more
 
     def publish(self, session):
         """Send the present state of a `Session` to those who listen."""

@@ -28,7 +28,7 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
-from . import qos, startup
+from . import qos, startup, transforms
 from .complaints import Refused
 from .drive import ClockDrive, SteadyDrive
 from .initial_pose import read_place
@@ -58,8 +58,11 @@ class BoatNode(ParameterNode):
         given = self.given_values()
         self._sim_time = self.get_parameter('use_sim_time').value
         with startup.warnings_said(self.get_logger().warning):
+            if given.get('publish_tf') is True:
+                given.setdefault('frame_prefix', transforms.prefix(self.get_namespace()))
             scene = scene_from_values(given)
             startup.check_time(scene.values, self._sim_time)
+            transforms.check(scene.values)
             # Said before it is done: it takes long.
             if compiling := notice(march_by(scene.integrator)):
                 self.get_logger().info(compiling)
@@ -75,7 +78,8 @@ class BoatNode(ParameterNode):
         for sentence in startup.remarks(self, given, scene.values):
             self.get_logger().warning(sentence)
 
-        self._outputs = Outputs(self, scene, sensors_of(self, scene))
+        self._outputs = Outputs(self, scene, sensors_of(self, scene),
+                                transforms.topics_of(self, scene))
         self._markers = Markers(self, scene)
         self._clock_output = ClockOutput(self) if self._own_clock else None
         self._waves_output = WavesOutput(self)

@@ -98,6 +98,8 @@ def _string(name, value, parameter):
         if value not in parameter.choices:
             raise ValueError(f'{name}: expected one of {", ".join(parameter.choices)}, '
                              f'got {value!r}')
+    elif value == '' == parameter.default:
+        pass
     elif (not isinstance(value, str) or not value or value.startswith('/')
             or any(c.isspace() for c in value)):
         raise ValueError(f'{name}: expected a frame id without spaces or leading slash, '

@@ -95,6 +95,14 @@ def _table():
                   **fixed),
         Parameter('body_frame', 'string', 'base_link', '',
                   'Frame id of the boat: x forward, y left, z up.', **fixed),
+        Parameter('frame_prefix', 'string', '', '',
+                  "What comes before body_frame, as red/. With publish_tf the node's namespace, "
+                  'where nothing else is given.', **fixed),
+        Parameter('publish_tf', 'bool', False, '',
+                  'True broadcasts world_frame to body_frame on /tf every period.', **fixed),
+        Parameter('map_frame', 'string', '', '',
+                  'Frame id of a map that is the same place as world_frame: initialpose is taken '
+                  'in it, too, and with publish_tf it is on /tf_static.', **fixed),
         Parameter('status_period', 'float', 5.0, 's',
                   'Time between status lines of the node; 0 = none. Higher says less.',
                   at_least=0.0, at_most=1e6, **fixed),

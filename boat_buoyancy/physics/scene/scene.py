@@ -47,10 +47,10 @@ class Scene:
 
     Main arguments: ``boat``, ``sea``, ``start`` (`State` of the centre of mass); ``rate`` Hz,
     ``integrator`` and ``substeps`` as asked for, 0 = chosen.
-    Other arguments: ``world_frame``, ``body_frame``, ``thrust_timeout`` s; ``thrusters``, a tuple
-    of `Thruster`; ``warnings``, sentences; ``given``, the parameters that were given,
-    {name: value}; ``values``, every parameter in force, what was derived filled in: given again
-    they make the same scene.
+    Other arguments: ``world_frame``, ``body_frame`` with its prefix, ``thrust_timeout`` s;
+    ``thrusters``, a tuple of `Thruster`; ``warnings``, sentences; ``given``, the parameters that
+    were given, {name: value}; ``values``, every parameter in force, what was derived filled in:
+    given again they make the same scene.
     """
 
     boat: Boat
@@ -173,7 +173,8 @@ def scene_from_values(values):
     thrusters = assembled_thrusters(in_force)
     return Scene(
         boat, sea, assembled_start(boat, in_force), in_force['rate'], in_force['integrator'],
-        in_force['substeps'], in_force['world_frame'], in_force['body_frame'],
+        in_force['substeps'], in_force['world_frame'],
+        in_force['frame_prefix'] + in_force['body_frame'],
         in_force['thrust.timeout'], thrusters,
         (*_warnings(boat, sea, given, in_force), *dry_thruster_warnings(boat, thrusters)), given,
         _complete(boat, given, in_force))
@@ -211,9 +212,14 @@ def _check_together(given, in_force):
         if len(weights) != count:
             raise ValueError(f'probes.weights: expected {count} numbers, one for every probe, '
                              f'got {len(weights)}: {list(weights)}')
-    if in_force['world_frame'] == in_force['body_frame']:
-        raise ValueError('body_frame: expected another frame than world_frame, '
-                         f'got {in_force["body_frame"]!r} for both')
+    body = in_force['frame_prefix'] + in_force['body_frame']
+    for name, frame in (('body_frame', body), ('map_frame', in_force['map_frame'])):
+        if frame == in_force['world_frame']:
+            raise ValueError(f'{name}: expected another frame than world_frame, '
+                             f'got {frame!r} for both')
+    if in_force['map_frame'] == body:
+        raise ValueError(f'map_frame: expected another frame than body_frame, got {body!r} for '
+                         'both')
 
 
 def _warnings(boat, sea, given, in_force):
