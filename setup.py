@@ -28,7 +28,7 @@ setup(
         ('share/' + package_name, ['package.xml']),
         ('share/' + package_name + '/config',
          sorted(glob('config/*.yaml') + glob('config/*.rviz'))),
-        ('share/' + package_name + '/launch', sorted(glob('launch/*.py'))),
+        ('share/' + package_name + '/launch', sorted(glob('launch/*.py') + glob('launch/*.yaml'))),
     ],
     python_requires='>=3.10',
     install_requires=['numpy>=1.26', 'pyyaml'],
