@@ -29,6 +29,7 @@ setup(
         ('share/' + package_name + '/config',
          sorted(glob('config/*.yaml') + glob('config/*.rviz'))),
         ('share/' + package_name + '/launch', sorted(glob('launch/*.py') + glob('launch/*.yaml'))),
+        ('share/' + package_name + '/examples', sorted(glob('examples/*'))),
     ],
     python_requires='>=3.10',
     install_requires=['numpy>=1.26', 'pyyaml'],
