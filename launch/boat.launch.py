@@ -44,6 +44,8 @@ ARGUMENTS = {
     'publish_clock': ('', 'true: this boat is the source of /clock, from 0 on.'),
     'time_factor': ('', 'Simulated over wall time, with publish_clock; 0.0 = as fast as it can.'),
     'use_sim_time': ('', 'true: steps follow a /clock from elsewhere.'),
+    'publish_tf': ('', 'true: the boat is on /tf, in a namespace as NAMESPACE/base_link; needs '
+                       'tf2_msgs.'),
     'rviz': ('false', 'true: show the boat in RViz.'),
 }
 
@@ -88,7 +90,7 @@ def switch(given, name):
 def overrides(given):
     """Return the parameters that arguments set; those left empty are the scene's."""
     parameters = {name: switch(given, name)
-                  for name in ('publish_clock', 'use_sim_time') if given[name]}
+                  for name in ('publish_clock', 'use_sim_time', 'publish_tf') if given[name]}
     if given['time_factor']:
         parameters['time_factor'] = number(given, 'time_factor')
     if given['sea_state']:

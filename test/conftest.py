@@ -66,6 +66,7 @@ def python_files():
     """Return the path of every Python file of the package, built copies left out."""
     root = Path(__file__).parents[1]
     found = [root / 'setup.py']
-    for folder in ('.ci', 'benchmarks', 'boat_buoyancy', 'config', 'doc', 'launch', 'test'):
+    for folder in ('.ci', 'benchmarks', 'boat_buoyancy', 'config', 'doc', 'examples', 'launch',
+                   'test'):
         found += sorted((root / folder).rglob('*.py'))
     return [str(path) for path in found]

@@ -36,7 +36,7 @@ RETENTION = {f'damping.{name}_retention'
 DRAFTS = {'default': 2000 / (1025 * 4 * 2), 'v0_single_probe': 1 / (12.0 * 0.4),
           'v1_four_probes': 1 / (12.0 * 0.4), 'v2_budget': 1 / (1.2 * 4.0),
           'v3_probe_damping': 1 / (1.2 * 4.0), 'v4_tuned': 1 / (1.3 * 3.0), 'barge': 1.5,
-          'wam_v': 1 / (7.95 * 2.347)}
+          'wam_v': 1 / (7.95 * 2.347), 'otter': 80 / (1025 * 0.75)}
 
 
 def scene_of(name):

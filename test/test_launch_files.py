@@ -25,6 +25,8 @@ import sys
 from types import ModuleType, SimpleNamespace
 
 from boat_buoyancy.physics import load_scene
+from boat_buoyancy.physics.scene import parameter_file
+from boat_buoyancy.physics.scene.parameters import PARAMETERS
 import pytest
 import yaml
 
@@ -58,7 +60,7 @@ STAND_INS = {
     'launch.launch_description_sources': {'PythonLaunchDescriptionSource': Kept},
     'launch.substitutions': {'LaunchConfiguration': LaunchConfiguration},
     'launch_ros': {},
-    'launch_ros.actions': {'Node': Kept, 'SetRemap': Kept}}
+    'launch_ros.actions': dict.fromkeys(('Node', 'SetParametersFromFile', 'SetRemap'), Kept)}
 
 
 @pytest.fixture
@@ -125,12 +127,13 @@ def test_a_sea_state_goes_with_every_scene_that_has_no_sea_of_its_own(start, sce
 
 def test_arguments_reach_the_scene(start):
     boat, = start(x='3.0', yaw='1.5', sea_state='4', publish_clock='true', time_factor='2',
-                  namespace='red')
+                  namespace='red', publish_tf='true')
     scene = scene_of(boat)
     assert boat.namespace == 'red'
     assert scene.values['start.position'] == (3.0, 0.0)
     assert scene.values['start.orientation'] == (0.0, 0.0, 1.5)
     assert (scene.values['publish_clock'], scene.values['time_factor']) == (True, 2.0)
+    assert scene.values['publish_tf'] is True
     assert len(scene.sea.waves) == 16
 
 
@@ -179,3 +182,23 @@ def test_two_boats_are_apart_and_in_one_sea(load, start):
     assert scenes[0].sea.waves.tolist() == scenes[1].sea.waves.tolist() != []
     apart = scenes[1].start.position - scenes[0].start.position
     assert abs(apart[1]) > 5.0
+
+
+def test_the_boat_of_vrx_has_its_topics_and_all_arguments_of_one_boat(load, start):
+    *arguments, group = load('vrx').generate_launch_description().arguments[0]
+    defaults = {argument.arguments[0]: argument.options['default_value'] for argument in arguments}
+    assert defaults == {'scene': 'wam_v', 'namespace': 'wamv'}
+    *remaps, parameters, include = group.arguments[0]
+    assert {remap.arguments for remap in remaps} == {
+        ('imu', 'sensors/imu/imu/data'), ('fix', 'sensors/gps/gps/fix'),
+        ('odom', 'sensors/position/ground_truth_odometry')}
+    assert Path(include.arguments[0].arguments[0]).name == 'boat.launch.py'
+    # With no arguments of its own, what is declared and given here reaches it.
+    assert 'launch_arguments' not in include.options
+    boat, = start(**defaults, sea_state='1')
+    more = parameter_file.read(parameters.arguments[0])
+    scene = load_scene({**more, **scene_of(boat).given})
+    assert [thruster.name for thruster in scene.thrusters] == ['left', 'right']
+    assert (scene.world_frame, scene.body_frame) == ('map', 'wamv/base_link')
+    assert scene.warnings == () and len(scene.sea.waves) == 16
+    assert set(more) <= set(PARAMETERS) - set(load_scene(ROOT / 'config' / 'wam_v.yaml').given)

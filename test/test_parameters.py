@@ -27,12 +27,14 @@ import pytest
 
 DEFAULT = Path(__file__).parents[1] / 'config' / 'default.yaml'
 KINDS = {'float': float, 'int': int, 'bool': bool, 'string': str, 'float_array': tuple,
-         'int_array': tuple, 'path': str}
+         'int_array': tuple, 'string_array': tuple, 'path': str}
 DERIVED = {'boat.inertia', 'hull.bottom', 'probes.positions', 'probes.weights', 'probes.law',
-           'damping.probe', 'sea.waves', 'hull.spacing', 'hull.mesh', 'start.orientation'}
+           'damping.probe', 'sea.waves', 'hull.spacing', 'hull.mesh', 'start.orientation',
+           'thrusters.names', 'thrusters.positions', 'thrusters.directions', 'thrusters.limits'}
 # With these there is nothing to raise.
 NO_NUMBER = {'integrator', 'world_frame', 'body_frame', 'publish_clock', 'hull.shape',
-             'hull.model', 'hull.mesh', 'probes.law'}
+             'hull.model', 'hull.mesh', 'probes.law', 'thrusters.names', 'frame_prefix',
+             'publish_tf', 'map_frame'}
 # What the node may change while it runs.
 LIVE = ('boat.mass', 'boat.inertia', 'probes.floatiness', 'probes.stiffness', 'probes.weights',
         'damping.', 'sea.', 'thrust.timeout')
@@ -132,8 +134,12 @@ def wrong_values(parameter):
     """Return values of a wrong kind, alone and in every place of a list, and wrong lists."""
     if parameter.kind == 'bool':
         return [0, 1, 1.0, 'true', 'yes', None, [True]]
+    if parameter.kind == 'string_array':
+        return ['left', ['left', 'left'], [''], ['1st'], ['a b'], ['a/b'], ['_a'], [5], [True],
+                [['left']], 5, None, {}]
     if parameter.kind == 'string':
-        return ['', True, 5, None, ['leapfrog'], 'no such/ word', '/slash', 'a\tb']
+        return [*[''] * (parameter.default != ''), True, 5, None, ['leapfrog'], 'no such/ word',
+                '/slash', 'a\tb']
     if parameter.kind == 'path':
         return ['', ' ', True, 5, None, ['hull.stl']]
     numbers = [math.nan, math.inf, -math.inf, True, '1', 'word', None, 10 ** 400, {}]
@@ -162,7 +168,8 @@ def test_every_choice_is_taken_and_a_frame_is_any_word():
         if parameter.kind == 'string':
             for word in parameter.choices or ('map', 'boat/base_link', 'y'):
                 assert checked(name, word) == word
-            assert parameter.choices or name in ('world_frame', 'body_frame')
+            assert parameter.choices or name in (
+                'world_frame', 'body_frame', 'frame_prefix', 'map_frame')
     assert checked('publish_clock', True) is True and checked('publish_clock', False) is False
 
 
@@ -225,7 +232,8 @@ def test_the_lines_left_out_of_the_default_file_show_what_is_derived():
     shown = parameter_file.parse(uncommented(DEFAULT.read_text(encoding='utf-8')))
     assert list(shown) == list(PARAMETERS)
     example = {name: shown.pop(name) for name in list(shown)
-               if name.startswith('probes.') and name != 'probes.law' or name == 'sea.waves'}
+               if name.startswith(('probes.', 'thrusters.')) and name != 'probes.law'
+               or name == 'sea.waves'}
     # What only another shape than the default one has.
     other = {name: shown.pop(name) for name in ('hull.spacing', 'hull.mesh', 'hull.scale')}
     assert other['hull.scale'] == PARAMETERS['hull.scale'].default
@@ -242,4 +250,6 @@ def test_the_lines_left_out_of_the_default_file_show_what_is_derived():
         assert shown[name] == derived
     for name in ('probes.floatiness', 'probes.stiffness'):
         assert example[name] == PARAMETERS[name].default
-    assert len(load_scene(example).sea.waves) == 1
+    shown = load_scene(example)
+    assert len(shown.sea.waves) == 1
+    assert [thruster.name for thruster in shown.thrusters] == ['left', 'right']

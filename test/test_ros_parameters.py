@@ -32,7 +32,8 @@ TYPES = {
     'float': ParameterType.PARAMETER_DOUBLE, 'int': ParameterType.PARAMETER_INTEGER,
     'bool': ParameterType.PARAMETER_BOOL, 'string': ParameterType.PARAMETER_STRING,
     'float_array': ParameterType.PARAMETER_DOUBLE_ARRAY,
-    'int_array': ParameterType.PARAMETER_INTEGER_ARRAY}
+    'int_array': ParameterType.PARAMETER_INTEGER_ARRAY,
+    'string_array': ParameterType.PARAMETER_STRING_ARRAY}
 
 
 def parameter_file(folder, text):
@@ -120,9 +121,10 @@ def probe(boat):
 
 def test_every_parameter_is_described_with_unit_and_range(probe):
     names = [name for name in probe.list_parameters() if name in PARAMETERS]
-    # Those of probes one by one do not exist beside a hull shape.
+    # Those of probes one by one do not exist beside a hull shape, nor those of no thrusters.
     assert set(PARAMETERS) - set(names) == {
-        'probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness'}
+        'probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness'} | {
+        name for name in PARAMETERS if name.startswith('thrusters.')}
     described = probe.describe(names)
     for name in names:
         parameter, descriptor = PARAMETERS[name], described[name]

@@ -84,10 +84,13 @@ def test_a_scene_is_made_again_by_its_own_values():
 
 
 def test_values_hold_the_parameters_in_force_and_no_others():
-    box, probes = load_scene({}).values, load_scene({'probes.positions': SQUARE}).values
+    box = load_scene({}).values
+    probes = load_scene({'probes.positions': SQUARE, 'thrusters.names': ['main'],
+                         'thrusters.positions': [0.0, 0.0, 0.0]}).values
+    thrusters = {name for name in PARAMETERS if name.startswith('thrusters.')}
     assert set(PARAMETERS) - set(box) == {
         'probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness',
-        'hull.spacing', 'hull.mesh', 'hull.scale'}
+        'hull.spacing', 'hull.mesh', 'hull.scale'} | thrusters
     assert set(PARAMETERS) - set(probes) == {name for name in PARAMETERS
                                              if name.startswith('hull.')}
 
@@ -527,6 +530,8 @@ def values_of(parameter):
         return st.booleans()
     if parameter.kind == 'string':
         return st.sampled_from([*parameter.choices, 'map', '', ' '])
+    if parameter.kind == 'string_array':
+        return st.lists(st.sampled_from(['left', 'right', 'a b']), max_size=2)
     if parameter.kind == 'int_array':
         return st.lists(st.integers(0, 5), min_size=2, max_size=2)
     sizes = st.sampled_from(parameter.lengths or (3, 4, 6, 8, 12))

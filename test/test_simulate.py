@@ -130,6 +130,21 @@ def test_summary_says_what_was_run_and_how_it_ended(capsys):
     assert re.search(r'120 steps in [\d.e-]+ s: [\d.e+]+ steps/s, [\d.e+]+ times real time', out)
 
 
+def test_thrusters_push_by_name_and_add_up_with_thrust(capsys):
+    wam_v = str(CONFIG / 'wam_v.yaml')
+    assert simulate.main([wam_v, '--duration', '60', '--thruster', 'left=150', '--thruster',
+                          'right=150', '--thrust', '200', '0', '0', '0', '0', '0']) == 0
+    out = capsys.readouterr().out
+    assert 'thruster left=150, right=150 N\n' in out and 'speed 1.5226 m/s' in out
+    for word, said in (('left', "--thruster: expected NAME=N, as left=250, got 'left'"),
+                       ('left=full', "--thruster: expected NAME=N, as left=250, got 'left=full'"),
+                       ('left=nan', 'thruster left: expected a finite number, got nan'),
+                       ('bow=1', "thruster: expected one of left, right, got 'bow'")):
+        assert said in refused(capsys, wam_v, '--duration', '1', '--thruster', word)
+    assert 'left is given twice' in refused(
+        capsys, wam_v, '--duration', '1', '--thruster', 'left=1', '--thruster', 'left=2')
+
+
 def test_warnings_of_the_scene_are_in_the_summary(tmp_path, capsys):
     scene = scene_file(tmp_path / 'stone.yaml', {
         'probes.positions': [0.5, 0.5, 0.0, 0.5, -0.5, 0.0, -0.5, 0.0, 0.0],

@@ -24,11 +24,12 @@ radians.
 from .boat.boat import Boat, Damping
 from .boat.hull import Hull
 from .boat.state import State
+from .forces.thrusters import Propulsion, Thruster
 from .scene.scene import load_fleet, load_scene, Scene
 from .sea.waves import Sea
 from .stepping.fleet import Fleet
 from .stepping.simulation import Simulation, SimulationError
 from .stepping.trajectory import Trajectory
 
-__all__ = ['Boat', 'Damping', 'Fleet', 'Hull', 'load_fleet', 'load_scene', 'Scene', 'Sea',
-           'Simulation', 'SimulationError', 'State', 'Trajectory']
+__all__ = ['Boat', 'Damping', 'Fleet', 'Hull', 'load_fleet', 'load_scene', 'Propulsion', 'Scene',
+           'Sea', 'Simulation', 'SimulationError', 'State', 'Thruster', 'Trajectory']

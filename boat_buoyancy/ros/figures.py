@@ -83,6 +83,8 @@ def values(session, meter, figures, complaints, now):
         'step': kind(),
         'thrust age (s)': 'none' if age is None else f'{age:.2f}',
         'messages refused': str(sum(complaints.counts.values()))}
+    forces = session.propulsion.forces
+    shown.update((f'thruster {name} (N)', f'{force:.4g}') for name, force in forces.items())
     shown.update((f'refused, {key}', str(count))
                  for key, count in sorted(complaints.counts.items()))
     return shown

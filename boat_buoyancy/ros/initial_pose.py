@@ -22,8 +22,9 @@ MAX_PLACE = 1e9  # m, as start.position
 
 
 def read_place(message, scene):
-    """Return x, y m and yaw rad of a PoseWithCovarianceStamped in the world frame."""
-    check_frame('initialpose', message.header.frame_id, scene.world_frame)
+    """Return x, y m and yaw rad of a PoseWithCovarianceStamped in the world frame or its map."""
+    check_frame('initialpose', message.header.frame_id,
+                *filter(None, (scene.world_frame, scene.values['map_frame'])))
     place, turned = message.pose.pose.position, message.pose.pose.orientation
     check_finite('initialpose', (place.x, place.y, turned.x, turned.y, turned.z, turned.w))
     if max(abs(place.x), abs(place.y)) > MAX_PLACE:

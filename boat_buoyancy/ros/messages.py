@@ -43,18 +43,25 @@ class Frame:
     One instant of a boat, as the messages want it: Python floats of the body frame.
 
     ``stamp`` ns; ``position`` and ``orientation`` in the world, ``body_velocity`` and
-    ``angular_velocity`` in body axes; ``simulation`` for what is asked more rarely.
+    ``angular_velocity`` in body axes; ``wrench``, the thrust of the last period or None, and
+    ``simulation`` for what is asked more rarely.
     """
 
     def __init__(self, session):
         """Take the present state of a `Session`."""
         self.stamp, self.simulation = session.stamp, session.simulation
+        self.wrench = session.wrench
         motion, offset = self.simulation.motion, session.center_of_mass
         # Floats, all of them: rclpy does not look at types, an integer would go out as garbage.
         self.orientation, self.angular_velocity = motion.orientation, motion.angular_velocity
         self._rotation = rotation_matrix(self.orientation)
         self.position = subtract(motion.position, to_world(self._rotation, offset))
         self.body_velocity = subtract(motion.body_velocity, cross(self.angular_velocity, offset))
+
+    @property
+    def up(self):
+        """Return the world's z axis, three floats in body axes."""
+        return self._rotation[2]
 
     def to_world(self, place):
         """Return a place of the body frame, three floats in m, in the world."""
@@ -69,12 +76,14 @@ class Outputs:
     """
     The publishers of every period.
 
-    Main arguments: ``node``; ``scene``, for the frames and the number of probes.  ``publish``
-    sends the present state.
+    Main arguments: ``node``; ``scene``, for the frames and the number of probes; ``sensors``,
+    each a `Sensor`; ``more`` topics, (publisher, message, fill) each.  ``publish`` sends the
+    present state.
     """
 
-    def __init__(self, node, scene):
+    def __init__(self, node, scene, sensors=(), more=()):
         """Create the publishers and their messages."""
+        self._sensors = sensors
         world, body = scene.world_frame, scene.body_frame
         pose, twist, odometry = PoseStamped(), TwistStamped(), Odometry(child_frame_id=body)
         pose.header.frame_id = odometry.header.frame_id = world
@@ -86,6 +95,7 @@ class Outputs:
                 ('odom', odometry, _fill_odometry),
                 ('probe_depth', Float64MultiArray(), _fill_depths),
                 ('probes', _cloud(world, len(scene.boat.hull.positions)), _fill_cloud))]
+        self._topics += more
 
     def publish(self, session):
         """Send the present state of a `Session` to those who listen."""
@@ -95,6 +105,11 @@ class Outputs:
                 frame = frame or Frame(session)
                 fill(message, frame)
                 publisher.publish(message)
+        stamp = session.stamp if self._sensors else None
+        for sensor in self._sensors:
+            if sensor.is_due(stamp) and sensor.publisher.get_subscription_count():
+                frame = frame or Frame(session)
+                sensor.publish(frame)
 
 
 class ClockOutput:

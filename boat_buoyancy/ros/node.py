@@ -28,7 +28,7 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
-from . import qos, startup
+from . import qos, startup, transforms
 from .complaints import Refused
 from .drive import ClockDrive, SteadyDrive
 from .initial_pose import read_place
@@ -36,8 +36,10 @@ from .markers import Markers
 from .messages import ClockOutput, Outputs
 from .parameters import LiveParameters, ParameterNode
 from .reports import Reports
+from .sensors import sensors_of
 from .session import Session
 from .thrust import read_wrench
+from .thrusters import ThrusterInput
 from .wave_messages import WavesInput, WavesOutput
 from ..physics.compiled import notice
 from ..physics.scene.parameters import NODE_NAME
@@ -57,8 +59,11 @@ class BoatNode(ParameterNode):
         given = self.given_values()
         self._sim_time = self.get_parameter('use_sim_time').value
         with startup.warnings_said(self.get_logger().warning):
+            if given.get('publish_tf') is True:
+                given.setdefault('frame_prefix', transforms.prefix(self.get_namespace()))
             scene = scene_from_values(given)
             startup.check_time(scene.values, self._sim_time)
+            transforms.check(scene.values)
             # Said before it is done: it takes long.
             if compiling := notice(march_by(scene.integrator)):
                 self.get_logger().info(compiling)
@@ -74,13 +79,17 @@ class BoatNode(ParameterNode):
         for sentence in startup.remarks(self, given, scene.values):
             self.get_logger().warning(sentence)
 
-        self._outputs, self._markers = Outputs(self, scene), Markers(self, scene)
+        self._outputs = Outputs(self, scene, sensors_of(self, scene),
+                                transforms.topics_of(self, scene))
+        self._markers = Markers(self, scene)
         self._clock_output = ClockOutput(self) if self._own_clock else None
         self._waves_output = WavesOutput(self)
         self._waves_input = WavesInput(self, self._reports.complaints, self._on_waves)
         guarded = self._reports.complaints.guarded
         self.create_subscription(
             WrenchStamped, 'thrust', guarded('thrust', self._on_thrust), qos.THRUST)
+        for thruster in scene.thrusters:
+            ThrusterInput(self, thruster.name, self.session, guarded, time.monotonic)
         self.create_subscription(PoseWithCovarianceStamped, 'initialpose',
                                  guarded('initialpose', self._on_place), qos.REQUEST)
         self.create_service(Trigger, '~/reset', self._on_reset)

@@ -25,5 +25,8 @@ THRUST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 REQUEST = QoSProfile(depth=10)
 # Waves that were latched before the node was there.
 LATCHED_REQUEST = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+# As tf2 has them.
+TRANSFORMS = QoSProfile(depth=100)
+FIXED_TRANSFORMS = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 # The sea in force: whoever comes late is told, too.
 SEA_IN_FORCE = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -25,7 +25,7 @@ from fractions import Fraction
 import numpy as np
 
 from .pacing import NANOSECONDS, Timeline
-from .thrust import ThrustLatch
+from .thrust import ThrusterLatches, ThrustLatch
 from ..physics.hydrostatics.rest import rest_state
 from ..physics.scene.parameters import WAVE_KINDS
 from ..physics.sea.fading import fade, FadingSea
@@ -41,14 +41,18 @@ class Session:
 
     Main arguments: ``scene`` a `Scene`; ``start`` ns, the stamp of step 0.
     Public: ``scene``; ``simulation``; ``sea``, as given, its time 0 that of the stamps;
-    ``thrust`` a `ThrustLatch`; ``fault``, why the motion was stopped, or None.
+    ``thrust`` a `ThrustLatch`; ``thrusters`` `ThrusterLatches`; ``propulsion``, what they give;
+    ``wrench`` (6), the thrust of the last period, or None; ``fault``, why the motion was stopped,
+    or None.
     """
 
     def __init__(self, scene, start=0):
         """Stand at the scene's start; ValueError when the scene cannot be stepped."""
         self.scene, self.simulation = scene, scene.simulation()
         self.thrust = ThrustLatch(scene.thrust_timeout)
-        self.fault = None
+        self.propulsion = scene.propulsion()
+        self.thrusters = ThrusterLatches(self.propulsion.thrusters, scene.thrust_timeout)
+        self.fault = self.wrench = None
         # A scene's centre of mass cannot change while it runs.
         self._center_of_mass = tuple(scene.boat.center_of_mass.tolist())
         self._timeline = Timeline(Fraction(scene.rate), start)
@@ -89,7 +93,8 @@ class Session:
             else:
                 simulation.sea = self._clocked(self.sea)
         try:
-            simulation.step(self.thrust.wrench(now, self._orientation))
+            self.wrench = self._push(now)
+            simulation.step(self.wrench)
         except SimulationError as error:
             self.fault = str(error)
             return False
@@ -99,7 +104,9 @@ class Session:
         """Go back to the start with neither thrust nor fault; sea and time go on."""
         self.simulation.state = self.scene.start
         self.thrust.clear()
-        self.fault = None
+        self.thrusters.clear()
+        self.propulsion.stop()
+        self.fault = self.wrench = None
 
     def place(self, x, y, yaw):
         """Put the boat at rest at x, y m, heading yaw rad, level and floating at its draft."""
@@ -122,6 +129,7 @@ class Session:
         """
         before, self.scene = self.scene, scene
         self.thrust.timeout = scene.thrust_timeout
+        self.thrusters.set_timeout(scene.thrust_timeout)
         changed = {name for name, value in scene.values.items()
                    if value != before.values.get(name)}
         if any(name.startswith(('boat.', 'probes.', 'damping.')) for name in changed):
@@ -167,6 +175,15 @@ class Session:
         # Whole seconds first: they and their remainder are exact, 1.7e18 ns in a float is not.
         seconds, nanoseconds = divmod(self._timeline.stamp(self._earlier), NANOSECONDS)
         return sea.starting_at(float(seconds)).starting_at(nanoseconds / NANOSECONDS)
+
+    def _push(self, now):
+        """Return wrench and thrusters together (6), body axes, or None."""
+        wrench = self.thrust.wrench(now, self._orientation)
+        if not self.propulsion.thrusters:
+            return wrench
+        pushed = self.propulsion.wrench(self.simulation, self.thrusters.commands(now),
+                                        self.thrusters.angles)
+        return pushed if wrench is None else [sum(both) for both in zip(wrench, pushed)]
 
     def _orientation(self):
         return self.simulation.motion.orientation

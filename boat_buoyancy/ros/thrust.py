@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Thrust: a wrench as it comes, and how long the last one acts."""
+"""Thrust: a wrench as it comes, and how long the last one acts; of thrusters the same."""
 
 from .complaints import check_finite, check_frame, Refused
 from ..physics.rotation import rotation_matrix, to_body
@@ -80,3 +80,37 @@ class ThrustLatch:
             return self._wrench
         rotation = rotation_matrix(orientation())
         return (*to_body(rotation, self._wrench[:3]), *to_body(rotation, self._wrench[3:]))
+
+
+class ThrusterLatches:
+    """
+    What is asked of each thruster: a thrust, until that is too old, and an angle.
+
+    Main arguments: ``names``; ``timeout`` s, as of `ThrustLatch`.  Public: ``angles``
+    {name: rad}, held for ever: a thruster that gives nothing stays turned.
+    """
+
+    def __init__(self, names, timeout):
+        """Ask nothing."""
+        self._latches = {name: ThrustLatch(timeout) for name in names}
+        self.angles = {}
+
+    def set_timeout(self, timeout):
+        """Let another time-out in s count from now on."""
+        for latch in self._latches.values():
+            latch.timeout = timeout
+
+    def clear(self):
+        """Forget everything."""
+        self.angles = {}
+        for latch in self._latches.values():
+            latch.clear()
+
+    def hold(self, name, thrust, now):
+        """Ask a thrust in N of a thruster, received at ``now`` s."""
+        self._latches[name].hold(thrust, False, now)
+
+    def commands(self, now):
+        """Return {name: N} of the thrusts that are asked for at ``now`` s."""
+        asked = {name: latch.wrench(now, None) for name, latch in self._latches.items()}
+        return {name: thrust for name, thrust in asked.items() if thrust is not None}

@@ -52,6 +52,8 @@ def parser():
            help='the boat on its water, from the side and from above')
     option('--thrust', metavar=THRUST, type=float, nargs=6, default=[0.0] * 6,
            help='constant push, N and N m, body axes, at the body origin')
+    option('--thruster', metavar='NAME=N', action='append', default=[],
+           help='constant thrust of a thruster of the scene, N; once for each')
     option('--rate', metavar='HZ', type=float, help="periods per second, instead of the scene's")
     option('--integrator', metavar='NAME', help="integrator, instead of the scene's")
     option('--substeps', metavar='N', type=int,
@@ -64,6 +66,29 @@ def protected(words):
     # Python takes -1e3 and -inf for options; a leading blank shows that they are none.
     number = re.compile(r'-[\d.]+([eE][+-]?\d+)?$|-(inf|nan)', re.IGNORECASE)
     return [f' {word}' if number.match(word) else word for word in words]
+
+
+def thruster_commands(words):
+    """Return {name: N} of words such as left=250; ValueError for one that is none."""
+    commands = {}
+    for word in words:
+        name, _, force = word.partition('=')
+        if name in commands:
+            raise ValueError(f'--thruster: {name} is given twice')
+        try:
+            commands[name] = float(force)
+        except ValueError:
+            raise ValueError(f'--thruster: expected NAME=N, as left=250, got {word!r}') from None
+    return commands
+
+
+def push_of(scene, simulation, arguments):
+    """Return the thrust of a run: six numbers, or with thrusters a function that gives them."""
+    commands = thruster_commands(arguments.thruster)
+    if not commands:
+        return arguments.thrust
+    propulsion = scene.propulsion()
+    return lambda time, state: np.add(arguments.thrust, propulsion.wrench(simulation, commands))
 
 
 def check_outputs(arguments):
@@ -85,13 +110,14 @@ def check_outputs(arguments):
             path.unlink()
 
 
-def summary(name, simulation, run, thrust, seconds):
+def summary(arguments, simulation, run, seconds):
     """
     Return what was run and what came of it, as lines.
 
-    ``name`` of the scene; ``simulation`` at its end and ``run``, its `Trajectory`; ``thrust`` (6)
-    that pushed it; ``seconds`` of wall time that the run took.
+    ``arguments`` of the program; ``simulation`` at its end and ``run``, its `Trajectory`;
+    ``seconds`` of wall time that the run took.
     """
+    thrust = arguments.thrust
     boat, sea, steps = simulation.boat, simulation.sea, simulation.steps * simulation.substeps
     # Rounded, and without the sign of a zero.
     x, y, z = np.round(run.position[-1], 3) + 0.0
@@ -99,13 +125,15 @@ def summary(name, simulation, run, thrust, seconds):
     heave = np.round(run.position[:, 2], 3) + 0.0
     speed = np.linalg.norm(run.body_velocity, axis=1)
     count, depths = len(boat.hull.positions), run.probe_depths
-    yield (f'{name}: {run.time[-1]:g} s at {simulation.rate:g} Hz, '
+    yield (f'{arguments.scene}: {run.time[-1]:g} s at {simulation.rate:g} Hz, '
            f'{simulation.integrator}, {_count(simulation.substeps, "step")} per period')
     yield (f'boat     {boat.mass:g} kg, {_count(count, "probe")}, law {boat.hull.law}; '
            f'{"flat water" if sea.is_flat else _count(len(sea.waves), "wave")}, '
            f'current {np.hypot(*sea.current):.3g} m/s')
     if any(thrust):
         yield f'thrust   {_joined(thrust[:3])} N, {_joined(thrust[3:])} N m, body axes'
+    if arguments.thruster:
+        yield f'thruster {", ".join(arguments.thruster)} N'
     yield from (f'warning: {sentence}' for sentence in simulation.warnings)
     yield (f'end      x {x:.3f}, y {y:.3f}, z {z:.3f} m; draft {depths[-1].max():.4f} m '
            f'(deepest probe); speed {speed[-1]:.4f} m/s')
@@ -137,9 +165,9 @@ def work(arguments):
     simulation = scene.simulation(integrator=arguments.integrator, rate=arguments.rate,
                                   substeps=arguments.substeps)
     start = perf_counter()
-    run = simulation.run(arguments.duration, arguments.thrust)
+    run = simulation.run(arguments.duration, push_of(scene, simulation, arguments))
     seconds = perf_counter() - start
-    for line in summary(arguments.scene, simulation, run, arguments.thrust, seconds):
+    for line in summary(arguments, simulation, run, seconds):
         print(line)
     for path, write in (
             (arguments.csv, run.every(arguments.every).to_csv),

@@ -24,8 +24,9 @@ from .metacentric_height import metacentric_heights
 from .rest import NEGLIGIBLE
 from .stiffness import still_load
 from ..boat.hull import LAWS
+from ..boat.state import body_frame
 from ..forces.probe_laws import wetting
-from ..rotation import rotation_matrix
+from ..rotation import rotation_matrix, to_world
 
 # A list or trim in degrees below which nobody sees one.
 LEAST_LIST = 0.5
@@ -64,6 +65,20 @@ def flotation_warnings(boat):
             'it dips in; lower its weight in probes.weights (a hull: make hull.size smaller), or '
             'move boat.center_of_mass towards it.')
     return tuple(sentences)
+
+
+def dry_thruster_warnings(boat, thrusters):
+    """Return a sentence for each `Thruster` that is out of still water at rest, in a tuple."""
+    if not thrusters or not rest.floats(boat):
+        return ()
+    state = rest.rest_state(boat)
+    origin, R = body_frame(boat, state)[0][2], rotation_matrix(state.orientation)
+    heights = {thruster.name: origin + to_world(R, thruster.position)[2]
+               for thruster in thrusters}
+    return tuple(
+        f'The thruster {name} is {height:.3g} m above the water at rest, where it gives nothing; '
+        'lower its z in thrusters.positions, that of the propeller.'
+        for name, height in heights.items() if height >= 0.0)
 
 
 def _sinking(boat):

@@ -29,6 +29,7 @@ from ..boat.hull import probe_hull
 from ..boat.mesh import read_mesh
 from ..boat.shapes import box_shaped, mesh_shaped
 from ..boat.state import body_frame, center_of_mass_state
+from ..forces.thrusters import Thruster
 from ..hydrostatics import rest
 from ..hydrostatics.natural_modes import equilibrium_stiffness
 from ..rotation import from_roll_pitch_yaw
@@ -40,6 +41,8 @@ PROBE_DAMPING_RATIO = 0.3
 # A single probe at the centre of mass has no spread to estimate an inertia from: a solid ball of
 # this radius in m is the least it gets.
 LEAST_BALL = 0.1
+# The direction and the limits in N of a thruster that is given none.
+AHEAD, NO_LIMITS = (1.0, 0.0, 0.0), (-1e15, 1e15)
 
 
 def assembled_boat(in_force, sea):
@@ -152,3 +155,22 @@ def start_attitude(boat, in_force):
     """Return roll, pitch and yaw rad at the start: as given, or as the boat lies at rest."""
     given = in_force['start.orientation']
     return (*(rest.rest_attitude(boat) or (0.0, 0.0)), 0.0) if given is None else given
+
+
+def assembled_thrusters(in_force):
+    """Return the thrusters, a tuple of `Thruster`."""
+    names = in_force['thrusters.names'] or ()
+    rows = [_rows_of_thrusters(in_force, part, width, otherwise) for part, width, otherwise in (
+        ('positions', 3, ()), ('directions', 3, AHEAD), ('limits', 2, NO_LIMITS))]
+    return tuple(Thruster(name, place, direction, *limits, in_force['thrusters.lag'])
+                 for name, place, direction, limits in zip(names, *rows))
+
+
+def _rows_of_thrusters(in_force, part, width, otherwise):
+    """Return a parameter of thrusters as rows, one for each; ``otherwise`` where left out."""
+    count = len(in_force['thrusters.names'] or ())
+    flat = in_force[f'thrusters.{part}'] or otherwise * count
+    if len(flat) != width * count:
+        raise ValueError(f'thrusters.{part}: expected {width * count} numbers, {width} for each '
+                         f'of thrusters.names, got {len(flat)}: {list(flat)}')
+    return zip(*[iter(flat)] * width)

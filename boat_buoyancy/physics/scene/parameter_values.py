@@ -14,6 +14,8 @@
 
 """The value of one parameter: checked against the table and brought to one form."""
 
+import re
+
 import numpy as np
 
 from .parameters import PARAMETERS
@@ -21,12 +23,15 @@ from .. import checks
 from ..sea.waves import checked_waves, WAVE_FORM
 
 # Arrays that may be given as rows: of how many numbers, and which.
-ROWS = {'probes.positions': (3, 'x, y, z of every probe'), 'sea.waves': (4, WAVE_FORM)}
+ROWS = {'probes.positions': (3, 'x, y, z of every probe'), 'sea.waves': (4, WAVE_FORM),
+        'thrusters.positions': (3, 'x, y, z of every thruster'),
+        'thrusters.directions': (3, 'x, y, z of every direction'),
+        'thrusters.limits': (2, 'least and greatest thrust of every thruster')}
 
 
 def checked(name, value):
     """
-    Return the value of one parameter as float, int, bool, str or tuple of numbers.
+    Return the value of one parameter as float, int, bool, str, or tuple of numbers or str.
 
     An integer for a float is taken as the number; arrays may be lists, tuples or NumPy arrays.
     ValueError says what was given and what is expected.
@@ -50,6 +55,8 @@ def checked(name, value):
         return _string(name, value, parameter)
     if parameter.kind == 'int_array':
         return _integers(name, value, parameter)
+    if parameter.kind == 'string_array':
+        return _names(name, value)
     numbers = _numbers(name, value)
     if name == 'sea.waves':
         return tuple(checked_waves(numbers).ravel().tolist())
@@ -95,8 +102,21 @@ def _string(name, value, parameter):
         if value not in parameter.choices:
             raise ValueError(f'{name}: expected one of {", ".join(parameter.choices)}, '
                              f'got {value!r}')
+    elif value == '' == parameter.default:
+        pass
     elif (not isinstance(value, str) or not value or value.startswith('/')
             or any(c.isspace() for c in value)):
         raise ValueError(f'{name}: expected a frame id without spaces or leading slash, '
                          f'got {value!r}')
     return value
+
+
+def _names(name, value):
+    """Return a tuple of different words that may be part of the name of a topic."""
+    items = value.tolist() if hasattr(value, 'tolist') else value
+    if (not isinstance(items, (list, tuple)) or len({*map(repr, items)}) < len(items)
+            or not all(isinstance(item, str) and re.fullmatch('[A-Za-z][A-Za-z0-9_]*', item)
+                       for item in items)):
+        raise ValueError(f'{name}: expected different names of letters, digits and _ that begin '
+                         f'with a letter, got {value!r}')
+    return tuple(items)

@@ -38,9 +38,10 @@ class Parameter:
     """
     One parameter.
 
-    Main arguments: ``kind`` is float, int, bool, string, path, float_array or int_array;
-    ``default`` None means derived from others or none at all, the description says which;
-    ``unit`` of a number, '-' for none; ``description`` ends with what changes when it is raised.
+    Main arguments: ``kind`` is float, int, bool, string, path, float_array, int_array or
+    string_array; ``default`` None means derived from others or none at all, the description says
+    which; ``unit`` of a number, '-' for none; ``description`` ends with what changes when it is
+    raised.
     Other arguments: ``above`` (not reached), ``at_least`` and ``at_most`` bound every number;
     ``lengths`` allowed of an array, () = any; ``choices`` of a string; ``read_only`` while the
     node runs.
@@ -96,6 +97,14 @@ def _table():
                   **fixed),
         Parameter('body_frame', 'string', 'base_link', '',
                   'Frame id of the boat: x forward, y left, z up.', **fixed),
+        Parameter('frame_prefix', 'string', '', '',
+                  "What comes before body_frame, as red/. With publish_tf the node's namespace, "
+                  'where nothing else is given.', **fixed),
+        Parameter('publish_tf', 'bool', False, '',
+                  'True broadcasts world_frame to body_frame on /tf every period.', **fixed),
+        Parameter('map_frame', 'string', '', '',
+                  'Frame id of a map that is the same place as world_frame: initialpose is taken '
+                  'in it, too, and with publish_tf it is on /tf_static.', **fixed),
         Parameter('status_period', 'float', 5.0, 's',
                   'Time between status lines of the node; 0 = none. Higher says less.',
                   at_least=0.0, at_most=1e6, **fixed),
@@ -236,8 +245,64 @@ def _table():
                   'starts turning faster.', at_least=-1e6, at_most=1e6,
                   lengths=(3,), **fixed),
         Parameter('thrust.timeout', 'float', 0.5, 's',
-                  'Time without a wrench before thrust falls to zero; 0 = hold the last one. '
-                  'Higher bridges longer gaps.', at_least=0.0, at_most=1e6),
+                  'Time without a wrench, or without a thrust for a thruster, before what it '
+                  'asked for falls to zero; 0 = hold the last one. Higher bridges longer gaps.',
+                  at_least=0.0, at_most=1e6),
+        Parameter('thrusters.names', 'string_array', None, '',
+                  'Name of each thruster, which is driven by topics of its own; without it none.',
+                  **fixed),
+        Parameter('thrusters.positions', 'float_array', None, 'm',
+                  'x, y, z of every thruster in the body frame, one flat list. Wider apart turns '
+                  'harder; out of the water it gives nothing.',
+                  at_least=-1e6, at_most=1e6, **fixed),
+        Parameter('thrusters.directions', 'float_array', None, '-',
+                  'x, y, z of where each pushes the boat, of any length; without it ahead. Higher '
+                  'x, y, z push more ahead, to port, up.', at_least=-1e6, at_most=1e6, **fixed),
+        Parameter('thrusters.limits', 'float_array', None, 'N',
+                  'Least and greatest thrust of each, one flat list; without it no limits. Higher '
+                  'pushes harder at full power.', at_least=-1e15, at_most=1e15, **fixed),
+        Parameter('thrusters.lag', 'float', 0.0, 's',
+                  'Time constant of their thrust; 0 = at once. Higher follows more slowly.',
+                  at_least=0.0, at_most=1e6, **fixed),
+        Parameter('imu.rate', 'float', 100.0, 'Hz',
+                  'Messages of the IMU per second, at most one a period; 0 = no IMU. Higher '
+                  'follows quick motion.', at_least=0.0, at_most=1e5, **fixed),
+        Parameter('imu.position', 'float_array', (0.0, 0.0, 0.0), 'm',
+                  'Where it sits in the body frame, its axes those of the boat. Higher feels '
+                  'more of roll and pitch.', at_least=-1e6, at_most=1e6, lengths=(3,), **fixed),
+        Parameter('imu.accelerometer_noise', 'float', 0.0, 'm/s²',
+                  'Standard deviation of white noise on each axis. Higher is noisier.',
+                  at_least=0.0, at_most=1e6, **fixed),
+        Parameter('imu.gyroscope_noise', 'float', 0.0, 'rad/s',
+                  'Standard deviation of white noise on each axis. Higher is noisier.',
+                  at_least=0.0, at_most=1e6, **fixed),
+        Parameter('imu.orientation_noise', 'float', 0.0, 'rad',
+                  'Standard deviation of white noise of the attitude about each axis. Higher is '
+                  'noisier.', at_least=0.0, at_most=1.0, **fixed),
+        Parameter('imu.seed', 'int', 1, '-',
+                  'Chooses the noise: same seed, same numbers. Another is other noise of the same '
+                  'kind.', at_least=0, at_most=2 ** 63 - 1, **fixed),
+        Parameter('fix.rate', 'float', 10.0, 'Hz',
+                  'Messages of the satellite receiver per second, at most one a period; 0 = no '
+                  'receiver. Higher follows quick motion.', at_least=0.0, at_most=1e5, **fixed),
+        Parameter('fix.position', 'float_array', (0.0, 0.0, 0.0), 'm',
+                  'Where its antenna is in the body frame. Higher swings more as the boat rolls.',
+                  at_least=-1e6, at_most=1e6, lengths=(3,), **fixed),
+        Parameter('fix.latitude', 'float', 0.0, 'deg',
+                  "Latitude of the world's origin, on the ellipsoid WGS84. Higher is farther "
+                  'north.', at_least=-90.0, at_most=90.0, **fixed),
+        Parameter('fix.longitude', 'float', 0.0, 'deg',
+                  "Longitude of the world's origin. Higher is farther east.",
+                  at_least=-180.0, at_most=180.0, **fixed),
+        Parameter('fix.altitude', 'float', 0.0, 'm',
+                  'Height of the mean water level there above the ellipsoid. Higher adds to every '
+                  'altitude.', at_least=-1e6, at_most=1e6, **fixed),
+        Parameter('fix.noise', 'float_array', (0.0, 0.0), 'm',
+                  'Standard deviation of white noise, horizontal on each axis and vertical. '
+                  'Higher is noisier.', at_least=0.0, at_most=1e6, lengths=(2,), **fixed),
+        Parameter('fix.seed', 'int', 1, '-',
+                  'Chooses the noise: same seed, same numbers. Another is other noise of the same '
+                  'kind.', at_least=0, at_most=2 ** 63 - 1, **fixed),
     )
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from . import parameters
 from .wave_sampling import sampling_warnings
 from ..boat.hull import MAX_PANELS, PANELS_A_WAVE
-from ..hydrostatics.warnings import flotation_warnings
+from ..hydrostatics.warnings import dry_thruster_warnings, flotation_warnings
 
 # Somewhat more than 2 pi, so that 6.2832 is one.
 FULL_TURN = 6.2833
@@ -61,9 +61,14 @@ def check_together(given, in_force):
         raise ValueError('hull.spacing: expected at least the beam of a hull, '
                          f'{in_force["hull.size"][1]:g} m (hull.size), because hull.shape is '
                          f'twin, got {"none" if spacing is None else f"{spacing:g} m"}')
-    if in_force['world_frame'] == in_force['body_frame']:
-        raise ValueError('body_frame: expected another frame than world_frame, '
-                         f'got {in_force["body_frame"]!r} for both')
+    body = in_force['frame_prefix'] + in_force['body_frame']
+    for name, frame in (('body_frame', body), ('map_frame', in_force['map_frame'])):
+        if frame == in_force['world_frame']:
+            raise ValueError(f'{name}: expected another frame than world_frame, '
+                             f'got {frame!r} for both')
+    if in_force['map_frame'] == body:
+        raise ValueError(f'map_frame: expected another frame than body_frame, got {body!r} for '
+                         'both')
 
 
 def without_use(in_force):
@@ -71,7 +76,7 @@ def without_use(in_force):
     return USELESS[in_force['hull.shape']] if in_force['probes.positions'] is None else ()
 
 
-def remarks(boat, sea, given, in_force):
+def remarks(boat, sea, thrusters, given, in_force):
     """Return sentences about what was surely not meant, in a tuple; arguments as above."""
     warnings = [*flotation_warnings(boat), *panel_warnings(boat, sea)]
     drag = [name for name in ('damping.linear', 'damping.quadratic') if any(in_force[name])]
@@ -88,6 +93,9 @@ def remarks(boat, sea, given, in_force):
             'damping.probe: 0.0 for the drag of a measured vehicle alone.')
     warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
                  if name in given and given[name] != parameters.PARAMETERS[name].default]
+    warnings += [f'{name} is {given[name]:g} Hz and rate is {in_force["rate"]:g} Hz: there is at '
+                 f'most one message a period; raise rate, or lower {name}.'
+                 for name in ('imu.rate', 'fix.rate') if given.get(name, 0.0) > in_force['rate']]
     for name, angles in (('sea.waves', sea.waves[:, 2]),
                          ('sea.direction', [in_force['sea.direction']]),
                          ('start.orientation', in_force['start.orientation'] or ())):
@@ -95,7 +103,8 @@ def remarks(boat, sea, given, in_force):
         if name in given and abs(largest) > FULL_TURN:
             warnings.append(f'{name} has an angle of {largest:g}, more than a full turn: angles '
                             'are in radians, and this looks like degrees.')
-    return (*warnings, *sea_warnings(sea), *sampling_warnings(boat, sea, in_force))
+    return (*warnings, *sea_warnings(sea), *sampling_warnings(boat, sea, in_force),
+            *dry_thruster_warnings(boat, thrusters))
 
 
 def panel_warnings(boat, sea):
@@ -132,6 +141,8 @@ def _without_effect(in_force):
     if in_force['probes.positions'] is not None:
         yield ('water_density', 'probes.floatiness sets the lift of probes, and the density of '
                'water that of a hull shape')
+    if not in_force['thrusters.names']:
+        yield 'thrusters.lag', 'there is no thruster: give thrusters.names'
     if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:
         for name in ('sea.direction', 'sea.components', 'sea.seed'):
             yield name, ('it shapes an irregular sea, and there is none: give sea.sea_state or '

@@ -21,11 +21,13 @@ import os
 import numpy as np
 
 from . import parameter_file, parameters
-from .build import assembled_boat, assembled_sea, assembled_start, start_attitude
+from .build import (AHEAD, assembled_boat, assembled_sea, assembled_start, assembled_thrusters,
+                    NO_LIMITS, start_attitude)
 from .parameter_values import checked
 from .remarks import check_together, PROBES_ONLY, remarks, without_use
 from ..boat.boat import Boat
 from ..boat.state import PARTS, State
+from ..forces.thrusters import Propulsion
 from ..sea.waves import Sea
 from ..step_size.plan import Plan, plan
 from ..stepping.fleet import Fleet
@@ -39,9 +41,10 @@ class Scene:
 
     Main arguments: ``boat``, ``sea``, ``start`` (`State` of the centre of mass); ``rate`` Hz,
     ``integrator`` and ``substeps`` as asked for, 0 = chosen.
-    Other arguments: ``world_frame``, ``body_frame``, ``thrust_timeout`` s; ``warnings``,
-    sentences; ``given``, the parameters that were given, {name: value}; ``values``, every
-    parameter in force, what was derived filled in: given again they make the same scene.
+    Other arguments: ``world_frame``, ``body_frame`` with its prefix, ``thrust_timeout`` s;
+    ``thrusters``, a tuple of `Thruster`; ``warnings``, sentences; ``given``, the parameters that
+    were given, {name: value}; ``values``, every parameter in force, what was derived filled in:
+    given again they make the same scene.
     """
 
     boat: Boat
@@ -53,6 +56,7 @@ class Scene:
     world_frame: str
     body_frame: str
     thrust_timeout: float
+    thrusters: tuple
     warnings: tuple
     given: dict
     values: dict
@@ -74,6 +78,10 @@ class Scene:
             self.boat, self.sea, self.start if state is None else state, rate=rate,
             integrator=chosen.integrator, substeps=chosen.substeps,
             warnings=self.warnings + tuple(chosen.warnings))
+
+    def propulsion(self) -> Propulsion:
+        """Return the thrusters of the scene, ready to drive a `Simulation` of it."""
+        return Propulsion(self.thrusters)
 
     def plan(self, integrator: str | None = None, rate: float | None = None,
              substeps: int | None = None, allow_unstable: bool = False) -> Plan:
@@ -160,10 +168,13 @@ def scene_from_values(values, folder='.'):
 
     sea = assembled_sea(in_force)
     boat, said = assembled_boat(in_force, sea)
+    thrusters = assembled_thrusters(in_force)
     return Scene(
         boat, sea, assembled_start(boat, in_force), in_force['rate'], in_force['integrator'],
-        in_force['substeps'], in_force['world_frame'], in_force['body_frame'],
-        in_force['thrust.timeout'], (*said, *remarks(boat, sea, given, in_force)), given,
+        in_force['substeps'], in_force['world_frame'],
+        in_force['frame_prefix'] + in_force['body_frame'],
+        in_force['thrust.timeout'], thrusters,
+        (*said, *remarks(boat, sea, thrusters, given, in_force)), given,
         _complete(boat, given, in_force))
 
 
@@ -183,6 +194,7 @@ def _flattened(values, prefix=''):
 
 def _complete(boat, given, in_force):
     """Return every parameter in force, with derived ones as they were derived."""
+    count = len(in_force['thrusters.names'] or ())
     derived = {
         'boat.inertia': tuple(float(boat.inertia[i]) for i in (
             (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))),
@@ -190,8 +202,11 @@ def _complete(boat, given, in_force):
         'hull.bottom': float(boat.hull.positions[0, 2]),
         'probes.weights': (1.0,) * len(boat.hull.positions),
         'probes.law': boat.hull.law, 'sea.waves': (),
-        'start.orientation': start_attitude(boat, in_force)}
-    other = ('hull.' if 'probes.positions' in given
-             else (*PROBES_ONLY, *without_use(in_force)))
+        'start.orientation': start_attitude(boat, in_force),
+        'thrusters.directions': AHEAD * count,
+        'thrusters.limits': NO_LIMITS * count}
+    absent = ('hull.',) if 'probes.positions' in given else (*PROBES_ONLY, *without_use(in_force))
+    if not count:
+        absent = (*absent, 'thrusters.')
     return {name: derived[name] if value is None else value
-            for name, value in in_force.items() if not name.startswith(other)}
+            for name, value in in_force.items() if not name.startswith(absent)}

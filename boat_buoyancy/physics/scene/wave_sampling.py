@@ -21,7 +21,7 @@ from ..sea.waves import KX, KY, START
 
 # Error of the lift in waves, rms over the sea's waves in parts of their amplitude: what is told
 # of, and what the advice comes to.
-TOLD, WANTED = 0.1, 0.05
+TOLD, WANTED = 0.15, 0.05
 MOST_PROBES = 100
 
 

@@ -22,9 +22,11 @@ from concurrent.futures import wait
 
 import numpy as np
 
+from .equations_of_motion import explicit_accelerations
 from .guard import slowest_reached
 from .integrators import INTEGRATORS
-from .march import begin, LOAD_SIZE, march_by, PACE
+from .march import (about_center_of_mass, begin, LOAD_SIZE, march_by, PACE, read_load,
+                    read_motion)
 from .speed_bound import SpeedBound
 from .. import checks
 from ..boat.hull import LAWS
@@ -95,6 +97,14 @@ class Engine:
         law = LAWS.index(hull.law)
         return hull.max_force * [wetting(law, height, depth, up[2])[1] for height, depth in zip(
             hull.height.tolist(), np.asarray(self._depths[boat]).tolist())]
+
+    def accelerations(self, boat, thrust):
+        """Return linear and angular acceleration, body axes, of one boat under a thrust (6)."""
+        record = self.boats[boat].plain_records[0]
+        motion = read_motion(self.row(boat))
+        return explicit_accelerations(
+            record, read_load(np.asarray(self._loads[boat]).tolist()),
+            about_center_of_mass(record, thrust), motion.body_velocity, motion.angular_velocity)
 
     @property
     def time(self):

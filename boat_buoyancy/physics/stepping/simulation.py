@@ -119,6 +119,16 @@ class Simulation(Stepped):
         """Return (probes,) N, the lift of each probe, straight up, at the time of `state`."""
         return self._engine.forces(0)
 
+    def acceleration(self, thrust: ArrayLike | None = None) -> tuple[tuple, tuple]:
+        """
+        Return the accelerations of the centre of mass at the time of `state`, from the forces.
+
+        Linear (3) m/s^2, the change of the velocity in the world, and angular (3) rad/s^2, both
+        in body axes; gravity is in them.  ``thrust`` (6) as in `step`, what acts at that time.
+        """
+        wrench = NO_THRUST if thrust is None else thrust_rows(thrust, (6,))
+        return self._engine.accelerations(0, wrench[0].tolist())
+
     def reset(self, state: State | None = None) -> None:
         """Go back to time 0 and the start state, or to ``state`` and keep it as the start."""
         if state is not None:

@@ -1,0 +1,51 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Thrusters driven by other nodes: a topic for the thrust and one for the angle of each."""
+
+from std_msgs.msg import Float64
+
+from . import qos
+from .complaints import check_finite, Refused
+from .thrust import MAX_THRUST
+
+
+class ThrusterInput:
+    """
+    The subscriptions `thrusters/<name>/thrust` and `thrusters/<name>/pos`.
+
+    Main arguments: ``node``; ``name`` of the thruster; ``session``, whose thruster it is;
+    ``guarded`` as of `Complaints`; ``clock`` () -> s, by which `Session.step` counts.
+    """
+
+    def __init__(self, node, name, session, guarded, clock):
+        """Listen."""
+        self._name, self._session, self._clock = name, session, clock
+        self._topic = f'thrusters/{name}'
+        for part, act in (('thrust', self._on_thrust), ('pos', self._on_angle)):
+            topic = f'{self._topic}/{part}'
+            node.create_subscription(Float64, topic, guarded(topic, act), qos.THRUST)
+
+    def _on_thrust(self, message):
+        thrust, topic = message.data, f'{self._topic}/thrust'
+        check_finite(topic, [thrust])
+        limit = MAX_THRUST * self._session.scene.boat.weight
+        if abs(thrust) > limit:
+            raise Refused('too large', f'{topic}: expected at most {limit:.3g} N, '
+                          f'{MAX_THRUST:g} times the weight of this boat, got {thrust:g}')
+        self._session.thrusters.hold(self._name, thrust, self._clock())
+
+    def _on_angle(self, message):
+        check_finite(f'{self._topic}/pos', [message.data])
+        self._session.thrusters.angles[self._name] = message.data

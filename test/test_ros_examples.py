@@ -1,0 +1,158 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The examples do what they say: controllers that drive the boat, and parameters that fit it."""
+
+import ast
+import importlib.util
+import math
+import signal
+import subprocess
+import sys
+
+from boat_buoyancy.physics.scene.parameter_file import read
+from boat_buoyancy.physics.scene.parameters import PARAMETERS
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+import pytest
+from readme import table
+from ros_probe import BoatProcess, Probe, ROOT
+import yaml
+
+EXAMPLES = ROOT / 'examples'
+WAM_V = read(ROOT / 'config' / 'wam_v.yaml')
+QUIET = {'status_period': 0.0}
+
+
+class Example:
+    """An example in a process of its own."""
+
+    def __init__(self, name, *arguments):
+        """Start it."""
+        self.process = subprocess.Popen(
+            [sys.executable, str(EXAMPLES / name), '--ros-args', *arguments],
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+            text=True)
+
+    def __enter__(self):
+        """Return itself."""
+        return self
+
+    def __exit__(self, *_):
+        """End it."""
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.communicate(timeout=10.0)
+
+
+def loaded(name):
+    """Return an example as a module."""
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f'{name}.py')
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+# cmd_vel_to_thrusters.py
+
+def held(gain, asked, linear, quadratic):
+    """Return the speed at which a gain of what is missing meets drag: k (a - u) = l u + q u^2."""
+    b = gain + linear
+    return (-b + math.sqrt(b * b + 4.0 * quadratic * gain * asked)) / (2.0 * quadratic)
+
+
+def test_cmd_vel_is_held_as_far_as_its_gain_can_and_stops_when_it_falls_silent():
+    with BoatProcess({**WAM_V, **QUIET}) as boat, Probe(boat.namespace) as probe, \
+            Example('cmd_vel_to_thrusters.py', '-r', f'__ns:={boat.namespace}') as example:
+        odometry = probe.listen(Odometry, 'odom')
+        command = probe.publisher(Twist, 'cmd_vel')
+
+        def drive(ahead, turn, goal, part):
+            """Drive until a part of the twist is within 1 % of what drag leaves of it."""
+            message = Twist()
+            message.linear.x, message.angular.z = ahead, turn
+            probe.until(lambda: odometry and part(odometry[-1].twist.twist) == pytest.approx(
+                goal, rel=0.01), doing=lambda: command.publish(message))
+        # Drag of the WAM-V: 100 u + 150 u^2 ahead, 800 r + 800 r^2 turning.
+        drive(1.0, 0.0, held(1000.0, 1.0, 100.0, 150.0), lambda twist: twist.linear.x)
+        drive(0.0, 0.3, held(1500.0, 0.3, 800.0, 800.0), lambda twist: twist.angular.z)
+        # Without a command neither the example nor, half a second later, the boat pushes.
+        probe.until(lambda: abs(odometry[-1].twist.twist.angular.z) < 0.02)
+        example.process.send_signal(signal.SIGINT)
+        assert example.process.wait(10.0) == 0
+
+
+def test_more_turn_is_more_on_the_right():
+    thrusts = loaded('cmd_vel_to_thrusters').thrusts
+    gains = {'speed_gain': 1000.0, 'turn_gain': 1500.0, 'arm': 1.0}
+    assert thrusts((1.0, 0.2), (0.5, 0.0), gains) == pytest.approx((100.0, 400.0))
+
+
+# vrx_waypoint.py
+
+def remappings():
+    """Return the arguments by which vrx.launch.py gives topics the names of VRX."""
+    tree = ast.parse((ROOT / 'launch' / 'vrx.launch.py').read_text())
+    topics, = (ast.literal_eval(node.value) for node in tree.body
+               if isinstance(node, ast.Assign) and node.targets[0].id == 'TOPICS')
+    return [word for ours, theirs in topics.items() for word in ('-r', f'{ours}:={theirs}')]
+
+
+def test_a_controller_written_for_vrx_brings_the_boat_of_the_launch_file_to_a_place():
+    # 30 m to the north-west of a boat that heads east, four times as fast as real time.
+    latitude, longitude = -33.724223 + 21.0 / 110_900.0, 150.679736 - 21.0 / 92_700.0
+    files = ['--params-file', str(ROOT / 'launch' / 'vrx.yaml'),
+             '--params-file', str(ROOT / 'config' / 'wam_v.yaml')]
+    with BoatProcess({**QUIET, 'publish_clock': True, 'time_factor': 4.0}, namespace='/wamv',
+                     arguments=[*files, *remappings()]) as boat, Probe('/wamv') as probe:
+        odometry = probe.listen(Odometry, 'sensors/position/ground_truth_odometry')
+        probe.until(lambda: odometry)
+        with Example('vrx_waypoint.py', '-p', f'latitude:={latitude}', '-p',
+                     f'longitude:={longitude}') as example:
+            probe.until(lambda: example.process.poll() is not None, 30.0)
+            assert example.process.returncode == 0
+        # Within 2 m, the antenna 0.85 m behind the origin; it glides a little farther.
+        place = odometry[-1].pose.pose.position
+        assert math.hypot(place.x + 21.0, place.y - 21.0) < 3.5
+        assert boat.alive
+
+
+# robot_localization
+
+def test_the_parameters_of_robot_localization_fit_the_boat():
+    file = yaml.safe_load((EXAMPLES / 'robot_localization.yaml').read_text())
+    nodes = {name: section['ros__parameters'] for name, section in file.items()}
+    assert list(nodes) == ['/**/ekf', '/**/navsat_transform']
+    ekf, navsat = nodes.values()
+    kinds = {'odom': 'nav_msgs/msg/Odometry', 'imu': 'sensor_msgs/msg/Imu'}
+    ours = {row[0]: row[1] for row in table('Topics') if row[2] == 'out'}
+    for name in ('odom0', 'imu0', 'odom1'):
+        assert [type(item) for item in ekf[f'{name}_config']] == [bool] * 15
+        # What navsat_transform makes of fixes is the only topic that is not ours.
+        assert ekf[name] == 'odometry/gps' or ours[ekf[name]] == kinds[name[:-1]]
+    assert ours['fix'] == 'sensor_msgs/msg/NavSatFix'
+    assert (ekf['odom_frame'], ekf['base_link_frame']) == (
+        PARAMETERS['world_frame'].default, PARAMETERS['body_frame'].default)
+    assert ekf['gravitational_acceleration'] == PARAMETERS['gravity'].default
+    said = (EXAMPLES / 'robot_localization.launch.py').read_text()
+    for name, value in zip(('latitude', 'longitude'), navsat['datum']):
+        assert f'fix.{name}:={value}' in said
+
+
+def test_every_example_is_named_in_the_readme_and_installed():
+    readme, setup = ((ROOT / name).read_text() for name in ('README.md', 'setup.py'))
+    assert "glob('examples/*')" in setup
+    for path in EXAMPLES.iterdir():
+        if path.is_file():
+            assert f'examples/{path.name}' in readme, path.name
