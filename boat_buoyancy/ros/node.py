@@ -19,7 +19,6 @@ Everything happens in one thread, so callbacks act between two steps; `tick` run
 step and is called as often as there is something to do.
 """
 
-import signal
 import sys
 import time
 
@@ -31,6 +30,7 @@ from std_srvs.srv import SetBool, Trigger
 from . import qos, startup
 from .complaints import Refused
 from .drive import ClockDrive, SteadyDrive
+from .ending import told_to_end
 from .initial_pose import read_place
 from .markers import Markers
 from .messages import ClockOutput, Outputs
@@ -207,9 +207,12 @@ class BoatNode(ParameterNode):
 
 def main(arguments=None):
     """Run the node until a signal and return its exit status."""
-    stop = []
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: stop.append(1))
+    with told_to_end() as told:
+        return _run(arguments, told)
+
+
+def _run(arguments, told):
+    """Run the node until an event is set and return its exit status."""
     try:
         given = sys.argv if arguments is None else arguments
         # Files first: what finds the arguments of ROS reads them, too, and says less.
@@ -227,7 +230,7 @@ def main(arguments=None):
     executor = startup.executor()
     executor.add_node(node)
     try:
-        while not stop:
+        while not told.is_set():
             wait = node.tick()
             try:
                 executor.spin_once(wait)

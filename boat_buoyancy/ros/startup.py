@@ -131,6 +131,8 @@ def quiet_stderr():
 
 def one_line(error):
     """Return an exception as one line for standard error."""
-    text = ' '.join(str(error).split())
     # rcl adds where in its source it noticed.
-    return f'{PROGRAM}: {text.partition(", at /")[0] or repr(error)}'
+    text = ' '.join(str(error).split()).partition(', at /')[0] or repr(error)
+    if 'failed to initialize logging' in text:
+        text += '; set ROS_LOG_DIR to a folder that can be written'
+    return f'{PROGRAM}: {text}'
