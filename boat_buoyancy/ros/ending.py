@@ -37,7 +37,9 @@ def told_to_end():
     noticed, notice = os.pipe()
 
     def listen():
-        if os.read(noticed, 1) and not over.wait(ONE_REQUEST):
+        while (number := os.read(noticed, 1)) and ord(number) not in SIGNALS:
+            pass
+        if number and not over.wait(ONE_REQUEST):
             # Python's own way is for the main thread alone, which may be busy compiling.
             libc = ctypes.CDLL(None)
             for number in SIGNALS:

@@ -68,9 +68,9 @@ class Meter:
         return figures
 
 
-def values(session, meter, figures, complaints, now):
-    """Return {key: text} of all that a status shows; ``now`` s on the steady clock."""
-    simulation, age = session.simulation, session.thrust.age(now)
+def values(session, meter, figures, complaints):
+    """Return {key: text} of all that a status shows."""
+    simulation, age = session.simulation, session.thrust.age(session.age)
     shown = {
         'rate asked (Hz)': f'{simulation.rate:g}',
         'rate held (Hz)': f'{figures.rate:.2f}',

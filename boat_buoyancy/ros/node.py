@@ -29,7 +29,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from . import qos, startup
 from .complaints import Refused
-from .drive import ClockDrive, SteadyDrive
+from .drive import ClockDrive, SteadyDrive, WallDrive
 from .ending import told_to_end
 from .initial_pose import read_place
 from .markers import Markers
@@ -63,7 +63,6 @@ class BoatNode(ParameterNode):
                 self.get_logger().info(compiling)
             self.session = Session(scene)
         self._own_clock = scene.values['publish_clock']
-        wall = not self._own_clock and not self._sim_time
         self.declare(scene)
         LiveParameters(self, given, scene, self._change)
         self._paused = False
@@ -86,15 +85,19 @@ class BoatNode(ParameterNode):
         self.create_service(SetBool, '~/set_paused', self._on_set_paused)
         self.create_service(Trigger, '~/step', self._on_step)
 
-        self._drive = (
-            ClockDrive(scene.rate, lambda: self.get_clock().now().nanoseconds,
-                       self.get_logger().warning) if self._sim_time else
-            SteadyDrive(scene.rate, scene.values['time_factor'], skips=wall))
-        if wall:
-            self.session.rebase(self.get_clock().now().nanoseconds)
+        self._drive = self._chosen_drive(scene.rate, scene.values['time_factor'])
         self._waves_output.publish(self.session.sea)
-        if not self._sim_time:
-            self._publish()
+
+    def _chosen_drive(self, rate, time_factor):
+        """Return what the steps follow."""
+        if self._sim_time:
+            return ClockDrive(rate, lambda: self.get_clock().now().nanoseconds,
+                              self.get_logger().warning)
+        if self._own_clock:
+            return SteadyDrive(rate, time_factor)
+        if time_factor != 1.0:
+            return SteadyDrive(rate, time_factor, time.time_ns())
+        return WallDrive(rate, time.time_ns, self.get_logger().warning)
 
     # What is done over and over.
 
@@ -113,13 +116,13 @@ class BoatNode(ParameterNode):
             if self._drive.skips:
                 self.session.skip(turn.dropped)
         if turn.due > 0:
-            self._step(now)
+            self._step()
         return min(self._drive.wait(), IDLE)
 
-    def _step(self, now):
+    def _step(self):
         """Step once and publish what came of it; return True when it went well."""
         began = time.monotonic()
-        if not self.session.step(now):
+        if not self.session.step():
             self._reports.stopped()
             return False
         self._drive.ran()
@@ -145,7 +148,7 @@ class BoatNode(ParameterNode):
 
     def _on_thrust(self, message):
         wrench, in_world = read_wrench(message, self.session.scene)
-        self.session.thrust.hold(wrench, in_world, time.monotonic())
+        self.session.thrust.hold(wrench, in_world, self.session.age)
 
     def _on_waves(self, rows):
         if self.session.set_waves(rows):
@@ -197,7 +200,7 @@ class BoatNode(ParameterNode):
         if not self._paused:
             response.success = False
             response.message = 'expected a paused node: call ~/set_paused with data: true first'
-        elif self._step(time.monotonic()):
+        elif self._step():
             response.success = True
             response.message = f'at {self.session.steps / self.session.simulation.rate:g} s'
         else:

@@ -109,7 +109,7 @@ class Reports:
             level, message = DiagnosticStatus.WARN, f'{held.dropped} steps dropped'
         if self._session.fault:
             level, message = DiagnosticStatus.ERROR, self._session.fault
-        values = figures.values(self._session, self._meter, held, self.complaints, now)
+        values = figures.values(self._session, self._meter, held, self.complaints)
         self._status.level, self._status.message = level, message
         self._status.values = [KeyValue(key=key, value=value) for key, value in values.items()]
         array = DiagnosticArray(status=[self._status])

@@ -20,11 +20,10 @@ force at those stamps, the thrust that acts, and a fault if there was one.
 """
 
 from dataclasses import replace
-from fractions import Fraction
 
 import numpy as np
 
-from .pacing import NANOSECONDS, Timeline
+from .pacing import Grid, NANOSECONDS, Timeline
 from .thrust import ThrustLatch
 from ..physics.hydrostatics.rest import rest_state
 from ..physics.scene.parameters import WAVE_KINDS
@@ -39,7 +38,8 @@ class Session:
     """
     A scene under way.
 
-    Main arguments: ``scene`` a `Scene`; ``start`` ns, the stamp of step 0.
+    Main arguments: ``scene`` a `Scene`; ``start`` ns, the stamp of step 0 but for less than
+    a period: stamps are multiples of it.
     Public: ``scene``; ``simulation``; ``sea``, as given, its time 0 that of the stamps;
     ``thrust`` a `ThrustLatch`; ``fault``, why the motion was stopped, or None.
     """
@@ -51,7 +51,8 @@ class Session:
         self.fault = None
         # A scene's centre of mass cannot change while it runs.
         self._center_of_mass = tuple(scene.boat.center_of_mass.tolist())
-        self._timeline = Timeline(Fraction(scene.rate), start)
+        self._timeline = Timeline(Grid(scene.rate)).rebased(start, 0)
+        self._skipped = 0
         # Steps of simulations that were replaced by this one.
         self._earlier = 0
         self.sea, self._waiting = scene.sea, False
@@ -72,9 +73,14 @@ class Session:
         """Return the stamp of the present state in ns."""
         return self._timeline.stamp(self.steps)
 
-    def step(self, now):
+    @property
+    def age(self):
+        """Return the s since the start on the clock of the stamps, through all its jumps."""
+        return (self.steps + self._skipped) / self.simulation.rate
+
+    def step(self):
         """
-        Advance one period; ``now`` s on the steady clock decides which thrust acts.
+        Advance one period.
 
         Returns False when the motion left what physics allows: the last good state stays,
         `fault` says why, and nothing moves until `reset`.
@@ -89,7 +95,7 @@ class Session:
             else:
                 simulation.sea = self._clocked(self.sea)
         try:
-            simulation.step(self.thrust.wrench(now, self._orientation))
+            simulation.step(self.thrust.wrench(self.age, self._orientation))
         except SimulationError as error:
             self.fault = str(error)
             return False
@@ -139,6 +145,7 @@ class Session:
     def skip(self, periods):
         """Let the time of the stamps go on by so many periods in which the boat did not move."""
         if periods > 0:
+            self._skipped += periods
             self._move(self._timeline.skipped(periods))
 
     def rebase(self, stamp):
