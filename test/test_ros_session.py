@@ -136,7 +136,7 @@ def test_another_boat_in_the_middle_of_a_fade_sees_the_water_of_the_one_before()
     before = surface(session)
     assert abs(before[0]) > 0.01
     scene = load_scene({'boat.mass': 2500.0})
-    session.change(scene, scene.simulation())
+    session.change(scene, scene.plan())
     assert surface(session) == pytest.approx(before, abs=1e-12)
     for _ in range(201):
         session.step()
@@ -150,7 +150,7 @@ def test_another_boat_goes_on_from_place_speed_and_stamp_of_the_one_before():
         session.step()
     before, stamp = session.simulation.state, session.stamp
     scene = load_scene({'sea.waves': ROWS, 'boat.mass': 2500.0})
-    session.change(scene, scene.simulation())
+    session.change(scene, scene.plan())
     after = session.simulation.state
     for name in ('position', 'orientation', 'velocity', 'angular_velocity'):
         np.testing.assert_allclose(getattr(after, name), getattr(before, name), atol=1e-12)
@@ -167,7 +167,7 @@ def test_waves_that_came_by_message_stay_when_the_boat_or_the_current_changes():
     assert not session.set_waves(Sea(ROWS).waves)
     for values in ({'boat.mass': 2500.0}, {'sea.current': [1.0, 0.0]}):
         scene = load_scene({'sea.transition': 0.0, **values})
-        session.change(scene, scene.simulation())
+        session.change(scene, scene.plan())
         assert session.sea.waves.ravel().tolist() == ROWS
     assert session.sea.current.tolist() == [1.0, 0.0]
 
@@ -178,7 +178,7 @@ def test_a_parameter_that_asks_for_waves_takes_the_place_of_those_of_a_message()
         session = Session(load_scene(values))
         session.set_waves(Sea([[0.05, 3.0, 0.0, 0.0]]).waves)
         scene = load_scene(values)
-        session.change(scene, scene.simulation(), {'sea.waves'})
+        session.change(scene, scene.plan(), {'sea.waves'})
         assert session.sea.waves.ravel().tolist() == values['sea.waves']
 
 
@@ -186,7 +186,7 @@ def test_a_seed_without_an_irregular_sea_leaves_the_waves_of_a_message():
     session = Session(load_scene({'sea.transition': 0.0}))
     session.set_waves(Sea(ROWS).waves)
     scene = load_scene({'sea.transition': 0.0, 'sea.seed': 2})
-    session.change(scene, scene.simulation(), {'sea.seed'})
+    session.change(scene, scene.plan(), {'sea.seed'})
     assert session.sea.waves.ravel().tolist() == ROWS
 
 
@@ -212,7 +212,7 @@ def test_neither_another_boat_nor_another_sea_compiles_anything():
     session.thrust.hold((100.0, 0.0, 0.0, 0.0, 0.0, 0.0), False, 0.0)
     for values in ({'boat.mass': 2500.0}, {'sea.sea_state': 3}, {'sea.current': [1.0, 0.0]}):
         scene = load_scene({'sea.transition': 0.05, **values})
-        session.change(scene, scene.simulation())
+        session.change(scene, scene.plan())
         for _ in range(7):
             session.step()
     assert step.signatures == before

@@ -15,8 +15,8 @@
 """
 The node: it wires topics, services and parameters to a `Session` and steps it.
 
-Everything happens in one thread, so callbacks act between two steps; `tick` runs at most one
-step and is called as often as there is something to do.
+Everything happens in one thread, so callbacks act between two steps; `tick` runs the steps that
+are due and is called as often as there is something to do.
 """
 
 import sys
@@ -45,6 +45,8 @@ from ..physics.scene.scene import scene_from_values, sea_warnings
 from ..physics.stepping.march import march_by
 
 IDLE = 0.05  # s between looks at the signals and clocks when nothing is due
+# Steps that are due go before what others ask for, but for no longer than this at a time.
+BUSY = 0.02  # s
 
 
 class BoatNode(ParameterNode):
@@ -102,7 +104,7 @@ class BoatNode(ParameterNode):
     # What is done over and over.
 
     def tick(self):
-        """Run at most one step and what is due beside it; return the s until the next look."""
+        """Run the steps that are due and what is beside them; return the s until the next look."""
         now = time.monotonic()
         self._look_around(now)
         if self._paused or self.session.fault:
@@ -115,8 +117,9 @@ class BoatNode(ParameterNode):
             self._reports.dropped(turn.dropped, self._drive.skips, now)
             if self._drive.skips:
                 self.session.skip(turn.dropped)
-        if turn.due > 0:
-            self._step()
+        for _ in range(turn.due):
+            if not self._step() or time.monotonic() - now > BUSY:
+                break
         return min(self._drive.wait(), IDLE)
 
     def _step(self):
@@ -171,10 +174,10 @@ class BoatNode(ParameterNode):
         if self._paused:
             self._publish()
 
-    def _change(self, scene, simulation, names):
+    def _change(self, scene, plan, names):
         before = self.session.sea
-        self.session.change(scene, simulation, names)
-        self._reports.warnings(simulation)
+        self.session.change(scene, plan, names)
+        self._reports.warnings(scene, plan)
         if self.session.sea is not before:
             self._waves_output.publish(self.session.sea)
 

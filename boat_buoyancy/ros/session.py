@@ -33,7 +33,6 @@ from ..physics.stepping.simulation import SimulationError
 # Parameters that ask for waves; the rest of sea.* only shapes them.
 WAVES = frozenset(name for kind in WAVE_KINDS for name in kind)
 
-
 class Session:
     """
     A scene under way.
@@ -119,28 +118,36 @@ class Session:
         self._fade_to_given()
         return True
 
-    def change(self, scene, simulation, names=()):
+    def change(self, scene, plan=None, names=()):
         """
-        Go on with another boat or sea: a `Scene` of the same probes, and a simulation of it.
+        Go on with another boat or sea: a `Scene` of the same probes.
 
-        What moves keeps moving.  Waves that came by message stay unless the scene's changed or
-        ``names``, the parameters that were set, ask for waves.
+        ``plan`` is the `Plan` of another boat, None where it is the same.  What moves keeps
+        moving.  Waves that came by message stay unless the scene's changed or ``names``, the
+        parameters that were set, ask for waves.
         """
         before, self.scene = self.scene, scene
         self.thrust.timeout = scene.thrust_timeout
-        changed = {name for name, value in scene.values.items()
-                   if value != before.values.get(name)}
-        if any(name.startswith(('boat.', 'probes.', 'damping.')) for name in changed):
-            old, self.simulation = self.simulation, simulation
-            self._earlier += old.steps
-            simulation.reset(old.state)
-            simulation.sea = (old.sea.starting_at(old.time)
-                              if isinstance(old.sea, FadingSea) else self._clocked(self.sea))
+        if plan is not None:
+            self._change_boat(scene, plan)
         waves = (scene.sea.waves if WAVES.intersection(names)
                  or not np.array_equal(scene.sea.waves, before.sea.waves) else self.sea.waves)
-        if not np.array_equal(waves, self.sea.waves) or changed & {'sea.current', 'sea.depth'}:
+        if not np.array_equal(waves, self.sea.waves) or any(
+                scene.values[name] != before.values[name] for name in ('sea.current', 'sea.depth')):
             self.sea = replace(scene.sea, waves=waves)
             self._fade_to_given()
+
+    def _change_boat(self, scene, plan):
+        """Step the boat of a scene from now on, as a `Plan` says."""
+        old = self.simulation
+        if (plan.integrator, plan.substeps) == (old.integrator, old.substeps):
+            old.boat = scene.boat
+            return
+        self.simulation = scene.simulation()
+        self._earlier += old.steps
+        self.simulation.reset(old.state)
+        self.simulation.sea = (old.sea.starting_at(old.time) if isinstance(old.sea, FadingSea)
+                               else self._clocked(self.sea))
 
     def skip(self, periods):
         """Let the time of the stamps go on by so many periods in which the boat did not move."""

@@ -135,4 +135,6 @@ def one_line(error):
     text = ' '.join(str(error).split()).partition(', at /')[0] or repr(error)
     if 'failed to initialize logging' in text:
         text += '; set ROS_LOG_DIR to a folder that can be written'
+    if 'Sequence should be of same type' in text:
+        text += '; write all numbers of a list with a decimal point or all without'
     return f'{PROGRAM}: {text}'

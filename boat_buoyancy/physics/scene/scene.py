@@ -21,7 +21,7 @@ import os
 import numpy as np
 
 from . import parameter_file, parameters
-from .build import assembled_boat, assembled_sea, assembled_start
+from .build import assembled_boat, assembled_sea, assembled_start, MADE_OF
 from .parameter_values import checked
 from ..boat.boat import Boat
 from ..boat.state import PARTS, State
@@ -46,8 +46,9 @@ class Scene:
     Main arguments: ``boat``, ``sea``, ``start`` (`State` of the centre of mass); ``rate`` Hz,
     ``integrator`` and ``substeps`` as asked for, 0 = chosen.
     Other arguments: ``world_frame``, ``body_frame``, ``thrust_timeout`` s; ``warnings``,
-    sentences; ``given``, the parameters that were given, {name: value}; ``values``, every
-    parameter in force, what was derived filled in: given again they make the same scene.
+    sentences, those of ``flotation`` about the hull at rest among them; ``given``, the parameters
+    that were given, {name: value}; ``values``, every parameter in force, what was derived filled
+    in: given again they make the same scene.
     """
 
     boat: Boat
@@ -60,6 +61,7 @@ class Scene:
     body_frame: str
     thrust_timeout: float
     warnings: tuple
+    flotation: tuple
     given: dict
     values: dict
 
@@ -148,25 +150,47 @@ def load_fleet(scenes: Iterable, *, threads: int | None = None) -> Fleet:
                  warnings=tuple(warnings.values()))
 
 
-def scene_from_values(values):
+def scene_from_values(values, before=None):
     """
     Return the `Scene` of parameters {dotted name: value}; None means not given.
 
+    Parts of the `Scene` ``before`` whose parameters are the same are taken over as they are.
     ValueError as in `load_scene`.
     """
     values = {name: value for name, value in values.items() if value is not None}
     parameters.check_names(values)
     given = {name: checked(name, value) for name, value in values.items()}
-    in_force = {name: given.get(name, parameter.default)
-                for name, parameter in parameters.PARAMETERS.items()}
+    in_force = _in_force(given)
     _check_together(given, in_force)
 
-    boat, sea = assembled_boat(in_force), assembled_sea(in_force)
+    kept = _kept(in_force, before)
+    parts = {part: {name: in_force[name] for name in names} for part, names in MADE_OF.items()}
+    boat = before.boat if kept >= {'hull', 'damping'} else assembled_boat(
+        {**parts['hull'], **parts['damping']}, before.boat if 'hull' in kept else None)
+    sea = before.sea if 'sea' in kept else assembled_sea(parts['sea'])
+    start = before.start if kept >= {'hull', 'start'} else assembled_start(boat, parts['start'])
+    flotation = before.flotation if 'hull' in kept else flotation_warnings(boat)
     return Scene(
-        boat, sea, assembled_start(boat, in_force), in_force['rate'], in_force['integrator'],
+        boat, sea, start, in_force['rate'], in_force['integrator'],
         in_force['substeps'], in_force['world_frame'], in_force['body_frame'],
-        in_force['thrust.timeout'], _warnings(boat, sea, given, in_force), given,
-        _complete(boat, given, in_force))
+        in_force['thrust.timeout'], (*flotation, *_warnings(boat, sea, given, in_force)),
+        flotation, given, _complete(boat, given, in_force))
+
+
+def _in_force(given):
+    """Return {name: value} of every parameter, None where it is to be derived."""
+    return {name: given.get(name, parameter.default)
+            for name, parameter in parameters.PARAMETERS.items()}
+
+
+def _kept(in_force, before):
+    """Return the parts whose parameters are those of a scene before, or were derived to be."""
+    if before is None:
+        return set()
+    then, derived = _in_force(before.given), before.values
+    return {part for part, names in MADE_OF.items()
+            if all(in_force[name] == then[name] or in_force[name] == derived.get(name)
+                   for name in names)}
 
 
 def _flattened(values, prefix=''):
@@ -207,8 +231,8 @@ def _check_together(given, in_force):
 
 
 def _warnings(boat, sea, given, in_force):
-    """Return sentences about what was surely not meant."""
-    warnings = list(flotation_warnings(boat))
+    """Return sentences about what was surely not meant, but for the hull."""
+    warnings = []
     drag = [name for name in ('damping.linear', 'damping.quadratic') if any(in_force[name])]
     retained = [name for name in ('damping.linear_retention', 'damping.angular_retention')
                 if min(in_force[name]) < 1.0]
