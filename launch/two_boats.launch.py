@@ -19,22 +19,33 @@ Start two boats, red and blue, in one sea.
 
 Each boat has a namespace, so that topics are /red/pose and /blue/pose; both listen to one
 /wave_parameters. The sea is a function of the stamp time: both see the same water.
+`use_sim_time` and `rviz` are those of `boat.launch.py`, for each of the two.
 """
 
 import os
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
+from launch.actions import (DeclareLaunchArgument, GroupAction, IncludeLaunchDescription,
+                            OpaqueFunction)
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import SetRemap
 
 LAUNCH = os.path.join(get_package_share_directory('boat_buoyancy'), 'launch')
 
-# Arguments of one boat that must not reach both from the command line.
-NOT_SHARED = {'x': '0.0', 'yaw': '0.0', 'publish_clock': '', 'time_factor': '',
-              'use_sim_time': '', 'rviz': 'false'}
+# Arguments of one boat that must not reach both from the command line, and those set below.
+NOT_SHARED = {'x': '0.0', 'yaw': '0.0', 'publish_clock': '', 'time_factor': ''}
+SET_FOR_EACH = ('namespace', 'scene', 'y')
+
+
+def check(context):
+    """Raise RuntimeError for an argument that cannot be for both boats."""
+    for name in (*NOT_SHARED, *SET_FOR_EACH):
+        if name in context.launch_configurations:
+            raise RuntimeError(f'{name}: expected none, as it cannot be for both boats, got '
+                               f'{context.launch_configurations[name]!r}; to change it for one, '
+                               'copy two_boats.launch.py')
 
 
 def boat(namespace, scene, y):
@@ -52,5 +63,6 @@ def generate_launch_description():
     return LaunchDescription([
         DeclareLaunchArgument('sea_state', default_value='3',
                               description='WMO sea state of both, 0 to 9; 0 = flat water.'),
+        OpaqueFunction(function=check),
         boat('red', 'v4_tuned', '0.0'),
         boat('blue', 'default', '10.0')])

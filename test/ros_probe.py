@@ -114,14 +114,17 @@ class BoatProcess:
     The node in a process of its own; its log lines are read as they come.
 
     ``parameters`` {name: value}; ``arguments`` more of the command line, after --ros-args;
-    ``environment`` {name: value} of variables that are other than here.
+    ``environment`` {name: value} of variables that are other than here; ``script``, Python that
+    runs the node in place of its module; ``prefix``, a command that runs the process.
     """
 
-    def __init__(self, parameters=None, *, namespace=None, arguments=(), environment=None):
+    def __init__(self, parameters=None, *, namespace=None, arguments=(), environment=None,
+                 script=None, prefix=()):
         """Start it."""
         compile_step(parameters or {})
         self.namespace = new_namespace() if namespace is None else namespace
-        command = [sys.executable, '-m', 'boat_buoyancy.ros.node', '--ros-args',
+        program = ['-m', 'boat_buoyancy.ros.node'] if script is None else ['-c', script]
+        command = [*prefix, sys.executable, *program, '--ros-args',
                    '-r', f'__ns:={self.namespace}', *arguments]
         for name, value in (parameters or {}).items():
             command += ['-p', f'{name}:={as_argument(value)}']

@@ -168,7 +168,7 @@ def test_rviz_that_is_not_installed_is_one_line_before_anything_starts(load, mon
 
 def test_two_boats_are_apart_and_in_one_sea(load, start):
     groups = [action for action in load('two_boats').generate_launch_description().arguments[0]
-              if isinstance(action.arguments[0], list)]
+              if action.arguments and isinstance(action.arguments[0], list)]
     boats = []
     for group in groups:
         remap, include = group.arguments[0]
@@ -202,3 +202,21 @@ def test_the_boat_of_vrx_has_its_topics_and_all_arguments_of_one_boat(load, star
     assert (scene.world_frame, scene.body_frame) == ('map', 'wamv/base_link')
     assert scene.warnings == () and len(scene.sea.waves) == 16
     assert set(more) <= set(PARAMETERS) - set(load_scene(ROOT / 'config' / 'wam_v.yaml').given)
+
+
+@pytest.mark.parametrize('name', ['scene', 'namespace', 'x', 'y', 'yaw', 'publish_clock',
+                                  'time_factor'])
+def test_two_boats_refuse_what_cannot_be_for_both(load, name):
+    check = load('two_boats').check
+    check(SimpleNamespace(launch_configurations={'sea_state': '3', 'rviz': 'true'}))
+    with pytest.raises(RuntimeError, match=f'^{name}: expected none, .* got .1.;'):
+        check(SimpleNamespace(launch_configurations={name: '1'}))
+
+
+def test_two_boats_take_every_argument_of_one_or_refuse_it(load):
+    one, two = load('boat'), load('two_boats')
+    passed_on = {'sea_state', 'use_sim_time', 'rviz'}
+    assert {*one.ARGUMENTS} == {*two.NOT_SHARED, *two.SET_FOR_EACH} | passed_on
+    # Not set for a boat, so that the included file sees what the command line gave.
+    _, include = two.boat('red', 'default', '0.0').arguments[0]
+    assert not {'use_sim_time', 'rviz'} & dict(include.options['launch_arguments']).keys()

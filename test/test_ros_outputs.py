@@ -14,7 +14,6 @@
 
 """The node's outputs, as another process receives them."""
 
-import signal
 
 from boat_buoyancy.physics import load_scene
 from diagnostic_msgs.msg import DiagnosticArray
@@ -177,12 +176,3 @@ def test_the_log_says_what_was_loaded_and_how_it_goes(boat):
     assert f'{scene.boat.mass:g} kg' in line and 'leapfrog' in line and 'draft 0.244 m' in line
     status = boat.wait_for_log('real-time factor')
     assert 'z 0.256 m' in status and 'roll 0.0 pitch 0.0 deg' in status
-
-
-@pytest.mark.parametrize('signals', [
-    [signal.SIGTERM], [signal.SIGINT] * 3, [signal.SIGTERM, signal.SIGINT, signal.SIGTERM]])
-def test_it_ends_with_0_and_without_a_traceback_on_signals(signals):
-    with BoatProcess() as boat:
-        boat.wait_for_log('draft')
-        assert boat.end(*signals) == 0
-        assert 'Traceback' not in boat.log and 'rror' not in boat.log

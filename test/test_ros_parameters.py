@@ -19,10 +19,12 @@ from pathlib import Path
 
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
+from diagnostic_msgs.msg import DiagnosticArray
 import numpy as np
 import pytest
 from rcl_interfaces.msg import ParameterType
-from rclpy.parameter import parameter_value_to_python
+from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import Parameter, parameter_value_to_python
 from ros_probe import BoatProcess, LATCHED, NAME, Probe, ROOT, run_and_end
 from std_msgs.msg import Float64MultiArray
 import yaml
@@ -69,6 +71,7 @@ BAD_ARGUMENTS = [
     (['--params-file', '/nowhere/scene.yaml'], 'cannot be read'),
     (['-p', 'boat.mass'], 'boat.mass'),
     (['-p', 'sea.depht:=3.0'], 'sea.depht: no such parameter, did you mean sea.depth?'),
+    (['-p', 'sea.waves:=[0.1, 4, 0, 0]'], 'write all numbers of a list with a decimal point'),
     (['-p', 'sea.depht:=[]'], 'sea.depht: no such parameter, did you mean sea.depth?'),
     (['--no-such-option'], '--no-such-option')]
 
@@ -160,6 +163,11 @@ def test_a_heavier_boat_lies_deeper(probe):
     ({'no.such': 1.0}, 'no.such: no such parameter'),
     ({'probes.floatiness': 2.0}, 'probes.positions: expected'),
     ({'use_sim_time': True}, 'use_sim_time: cannot change'),
+    # As `ros2 param set` sends lists that ROS has no type for.
+    ({'sea.waves': '[0.1, 4, 0, 0]'}, "type '[0.1, 4.0, 0.0, 0.0]'"),
+    ({'sea.waves': '[[1, 4, 0, 0], [0.1, 3, 1, 0]]'},
+     "type '[1.0, 4.0, 0.0, 0.0, 0.1, 3.0, 1.0, 0.0]'"),
+    ({'sea.current': 'strong'}, "sea.current: expected a list of numbers, got 'strong'"),
 ])
 def test_a_bad_set_is_refused_with_the_reason_and_changes_nothing(probe, values, said):
     names = list(probe.list_parameters())
@@ -190,6 +198,60 @@ def test_a_sea_state_replaces_rows_and_rows_a_sea_state(probe):
     assert probe.set_parameters({'sea.waves': rows})[0].successful
     probe.until(lambda: probe.waves[-1].data.tolist() == rows)
     assert probe.get_parameters(['sea.sea_state'])['sea.sea_state'].integer_value == 0
+
+
+def test_a_deleted_parameter_goes_back_to_what_the_node_was_given(probe):
+    names = ['damping.linear_retention', 'sea.waves', 'sea.sea_state', 'boat.mass', 'boat.inertia']
+    before = probe.get_parameters(names)
+    assert before['damping.linear_retention'].double_array_value.tolist() == [0.9]
+    for values in ({'damping.linear_retention': [0.5]}, {'boat.mass': 2100.0},
+                   {'boat.inertia': [900.0, 3000.0, 3500.0]}, {'sea.sea_state': 3},
+                   {'sea.waves': [0.1, 3.0, 0.0, 0.0]}):
+        assert probe.set_parameters(values)[0].successful
+        assert probe.get_parameters(names) != before
+        assert probe.set_parameters(dict.fromkeys(values))[0].successful
+        assert probe.get_parameters(names) == before, values
+
+
+def dropped(probe):
+    """Return how many steps the node says in its next diagnostics that it has dropped."""
+    status = []
+    listener = probe.node.create_subscription(
+        DiagnosticArray, '/diagnostics', lambda message: status.extend(
+            one for one in message.status if one.hardware_id.startswith(
+                probe.node.get_namespace())), 10)
+    probe.until(lambda: status)
+    probe.node.destroy_subscription(listener)
+    return next(int(item.value) for item in status[-1].values if item.key == 'steps dropped')
+
+
+@pytest.mark.parametrize(('name', 'value'), [
+    ('thrust.timeout', lambda i: 0.5 + 1e-3 * i), ('sea.current', lambda i: [1e-4 * i, 0.0]),
+    ('damping.linear', lambda i: [1.0 * i] * 6), ('boat.mass', lambda i: 2000.0 + i)])
+def test_five_hundred_queued_sets_drop_no_step(probe, name, value):
+    before = dropped(probe)
+    client = probe.node.create_client(SetParameters, f'{NAME}/set_parameters')
+    probe.until(client.service_is_ready)
+    answers = [client.call_async(SetParameters.Request(parameters=[
+        Parameter(name, value=value(i)).to_parameter_msg()])) for i in range(500)]
+    # Services keep the last ten that wait, so not all of them arrive.
+    probe.until(lambda: answers[-1].done(), timeout=30.0)
+    assert answers[-1].result().results[0].successful
+    assert dropped(probe) == before
+    assert probe.set_parameters({name: None})[0].successful
+
+
+def test_what_it_dumps_can_be_loaded_while_it_runs_and_drops_no_step(probe):
+    names = [name for name in sorted(probe.list_parameters()) if name in PARAMETERS
+             and not PARAMETERS[name].read_only]
+    before, steps = probe.get_parameters(names), dropped(probe)
+    results = probe.set_parameters(
+        {name: parameter_value_to_python(value) for name, value in before.items()
+         if name != 'sea.waves'})
+    assert all(result.successful for result in results)
+    assert probe.get_parameters(names) == before and dropped(probe) == steps
+    # Given now, and taken back for the tests to come.
+    assert all(result.successful for result in probe.set_parameters(dict.fromkeys(names)))
 
 
 def test_the_boat_keeps_its_stamps_and_its_way_through_a_set(probe):

@@ -57,13 +57,13 @@ def row_of(message):
 
 def record(values, periods, *, thrust=None, listeners=('imu', 'fix'), start=0):
     """Return the rows of imu (n, 11) and fix (n, 4) over some periods, and the session."""
-    recorder, session = Recorder(listeners), Session(load_scene(values), start)
+    recorder, session = Recorder(listeners), Session(load_scene({'thrust.timeout': 0.0, **values}), start)
     outputs = Outputs(recorder, session.scene, sensors_of(recorder, session.scene))
     outputs.publish(session)
     if thrust is not None:
         session.thrust.hold(thrust, False, 0.0)
     for _ in range(periods):
-        session.step(0.0)
+        session.step()
         outputs.publish(session)
     return np.array(recorder.rows['imu']), np.array(recorder.rows['fix']), session
 

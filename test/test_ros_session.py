@@ -27,7 +27,7 @@ import pytest
 
 
 ROWS = [0.2, 4.0, 0.3, 1.0]
-START = 1_795_415_697_933_873_175  # ns
+START = 1_795_415_697_930_000_000  # ns, a multiple of the period at 100 Hz
 
 
 def surface(session, x=1.0, y=-2.0):
@@ -49,7 +49,7 @@ def test_the_sea_is_a_function_of_the_stamp_from_the_first_step_on():
     assert abs(surface_error(session)) < 1e-12
     for _ in range(300):
         assert abs(surface_error(session)) < 1e-9
-        session.step(0.0)
+        session.step()
     assert session.stamp == START + 3_000_000_000
 
 
@@ -57,28 +57,72 @@ def test_skipped_time_brings_other_water_without_a_jump_and_exactly_after_the_fa
     session = Session(load_scene({'sea.waves': ROWS, 'sea.transition': 1.0}))
     session.rebase(START)
     for _ in range(100):
-        session.step(0.0)
+        session.step()
     before = surface(session)
     session.skip(170)
     assert session.stamp == START + 2_700_000_000
     assert surface(session) == pytest.approx(before, abs=1e-12)
     for _ in range(101):
-        session.step(0.0)
+        session.step()
     assert abs(surface_error(session)) < 1e-9
+
+
+@pytest.mark.parametrize('step', [3600.25, -0.7])
+def test_a_clock_that_steps_brings_the_water_of_its_time_without_a_jump(step):
+    session = Session(load_scene({'sea.waves': ROWS, 'sea.transition': 1.0}))
+    session.rebase(START)
+    for _ in range(100):
+        session.step()
+    before, age = surface(session), session.age
+    session.rebase(session.stamp + round(step * 1e9))
+    assert session.stamp == START + 1_000_000_000 + round(step * 1e9) and session.age == age
+    assert surface(session) == pytest.approx(before, abs=1e-12)
+    for _ in range(101):
+        session.step()
+    assert abs(surface_error(session)) < 1e-9
+
+
+def test_boats_that_start_at_other_moments_have_the_same_stamps():
+    stamps = []
+    for start in (START - 23_456_789, START + 1_234_567):
+        session = Session(load_scene({'rate': 60.0}))
+        session.rebase(start)
+        stamps.append(set())
+        for _ in range(12):
+            session.step()
+            stamps[-1].add(session.stamp)
+    # The first began one or two periods of 16.67 ms before.
+    assert len(stamps[0] & stamps[1]) in (10, 11)
+
+
+def test_thrust_lasts_its_time_out_in_periods_and_skipped_ones_count():
+    session = Session(load_scene({'thrust.timeout': 0.5, 'damping.probe': 0.0}))
+
+    def accelerates():
+        before = session.simulation.motion.body_velocity[0]
+        session.step()
+        return session.simulation.motion.body_velocity[0] > before
+    session.thrust.hold((1000.0, 0.0, 0.0, 0.0, 0.0, 0.0), False, session.age)
+    # The step that begins half a second after the wrench is the last, to round-off.
+    assert 50 <= [accelerates() for _ in range(60)].count(True) <= 51
+    session.thrust.hold((1000.0, 0.0, 0.0, 0.0, 0.0, 0.0), False, session.age)
+    assert accelerates()
+    session.skip(51)
+    assert not accelerates()
 
 
 def test_a_new_sea_comes_without_a_jump_and_is_exactly_the_one_given_after_its_fade():
     session = Session(load_scene({}))
     session.rebase(START)
-    session.step(0.0)
+    session.step()
     before = surface(session)
     session.set_waves(Sea(ROWS).waves)
     assert surface(session) == pytest.approx(before, abs=1e-12)
     # Four seconds, as sea.transition says when it is left out.
     for _ in range(400):
-        session.step(0.0)
+        session.step()
         assert not isinstance(session.simulation.sea, Sea)
-    session.step(0.0)
+    session.step()
     assert isinstance(session.simulation.sea, Sea)
     assert session.simulation.sea.waves[:, :3].tolist() == [ROWS[:3]]
     assert abs(surface_error(session)) < 1e-12
@@ -88,14 +132,14 @@ def test_another_boat_in_the_middle_of_a_fade_sees_the_water_of_the_one_before()
     session = Session(load_scene({}))
     session.set_waves(Sea(ROWS).waves)
     for _ in range(200):
-        session.step(0.0)
+        session.step()
     before = surface(session)
     assert abs(before[0]) > 0.01
     scene = load_scene({'boat.mass': 2500.0})
-    session.change(scene, scene.simulation())
+    session.change(scene, scene.plan())
     assert surface(session) == pytest.approx(before, abs=1e-12)
     for _ in range(201):
-        session.step(0.0)
+        session.step()
     assert abs(surface_error(session)) < 1e-9
 
 
@@ -103,17 +147,17 @@ def test_another_boat_goes_on_from_place_speed_and_stamp_of_the_one_before():
     session = Session(load_scene({'sea.waves': ROWS}))
     session.rebase(START)
     for _ in range(123):
-        session.step(0.0)
+        session.step()
     before, stamp = session.simulation.state, session.stamp
     scene = load_scene({'sea.waves': ROWS, 'boat.mass': 2500.0})
-    session.change(scene, scene.simulation())
+    session.change(scene, scene.plan())
     after = session.simulation.state
     for name in ('position', 'orientation', 'velocity', 'angular_velocity'):
         np.testing.assert_allclose(getattr(after, name), getattr(before, name), atol=1e-12)
     assert session.stamp == stamp and session.steps == 123
     assert session.simulation.boat.mass == 2500.0
     for _ in range(50):
-        session.step(0.0)
+        session.step()
         assert abs(surface_error(session)) < 1e-9
 
 
@@ -123,7 +167,7 @@ def test_waves_that_came_by_message_stay_when_the_boat_or_the_current_changes():
     assert not session.set_waves(Sea(ROWS).waves)
     for values in ({'boat.mass': 2500.0}, {'sea.current': [1.0, 0.0]}):
         scene = load_scene({'sea.transition': 0.0, **values})
-        session.change(scene, scene.simulation())
+        session.change(scene, scene.plan())
         assert session.sea.waves.ravel().tolist() == ROWS
     assert session.sea.current.tolist() == [1.0, 0.0]
 
@@ -134,7 +178,7 @@ def test_a_parameter_that_asks_for_waves_takes_the_place_of_those_of_a_message()
         session = Session(load_scene(values))
         session.set_waves(Sea([[0.05, 3.0, 0.0, 0.0]]).waves)
         scene = load_scene(values)
-        session.change(scene, scene.simulation(), {'sea.waves'})
+        session.change(scene, scene.plan(), {'sea.waves'})
         assert session.sea.waves.ravel().tolist() == values['sea.waves']
 
 
@@ -142,7 +186,7 @@ def test_a_seed_without_an_irregular_sea_leaves_the_waves_of_a_message():
     session = Session(load_scene({'sea.transition': 0.0}))
     session.set_waves(Sea(ROWS).waves)
     scene = load_scene({'sea.transition': 0.0, 'sea.seed': 2})
-    session.change(scene, scene.simulation(), {'sea.seed'})
+    session.change(scene, scene.plan(), {'sea.seed'})
     assert session.sea.waves.ravel().tolist() == ROWS
 
 
@@ -150,11 +194,11 @@ def test_a_flood_of_seas_ends_with_the_last_of_them_and_no_step_grows_dearer():
     session = Session(load_scene({'sea.transition': 1.0}))
     for i in range(300):
         session.set_waves(Sea([[0.1, 3.0 + 0.01 * i, 0.0, 0.0]]).waves)
-        session.step(0.0)
+        session.step()
         # What was there, what interrupted it, and what comes.
         assert session.simulation.sea.table.shape[1] <= 3
     for _ in range(201):
-        session.step(0.0)
+        session.step()
     assert isinstance(session.simulation.sea, Sea)
     assert session.simulation.sea.waves[0, 1] == pytest.approx(3.0 + 0.01 * 299)
 
@@ -162,36 +206,36 @@ def test_a_flood_of_seas_ends_with_the_last_of_them_and_no_step_grows_dearer():
 @pytest.mark.skipif(numba() is None, reason='Numba is not there')
 def test_neither_another_boat_nor_another_sea_compiles_anything():
     session = Session(load_scene({'sea.transition': 0.05}))
-    session.step(0.0)
+    session.step()
     step = machine_code(march_by('leapfrog'))
     before = list(step.signatures)
     session.thrust.hold((100.0, 0.0, 0.0, 0.0, 0.0, 0.0), False, 0.0)
     for values in ({'boat.mass': 2500.0}, {'sea.sea_state': 3}, {'sea.current': [1.0, 0.0]}):
         scene = load_scene({'sea.transition': 0.05, **values})
-        session.change(scene, scene.simulation())
+        session.change(scene, scene.plan())
         for _ in range(7):
-            session.step(0.0)
+            session.step()
     assert step.signatures == before
 
 
 def test_a_fault_stops_the_motion_until_reset(monkeypatch):
     session = Session(load_scene({}))
     session.thrust.hold((100.0, 0.0, 0.0, 0.0, 0.0, 0.0), False, 0.0)
-    assert session.step(0.0)
+    assert session.step()
     good, stamp = session.simulation.state, session.stamp
 
     def fail(thrust=None):
         raise SimulationError('forced from inside')
     with monkeypatch.context() as patch:
         patch.setattr(session.simulation, 'step', fail)
-        assert not session.step(0.0)
+        assert not session.step()
     assert session.fault == 'forced from inside'
-    assert not session.step(0.0)
+    assert not session.step()
     np.testing.assert_array_equal(session.simulation.state.position, good.position)
     assert session.stamp == stamp
     session.reset()
     assert session.fault is None and session.thrust.age(0.0) is None
-    assert session.step(0.0) and session.stamp > stamp
+    assert session.step() and session.stamp > stamp
 
 
 def test_a_boat_put_somewhere_floats_there_at_its_draft_and_at_rest():

@@ -146,6 +146,20 @@ def test_thrust_falls_to_zero_half_a_second_after_the_last_wrench(probe):
     np.testing.assert_allclose(after[1:] / after[:-1], RETENTION ** (1 / RATE), rtol=1e-4)
 
 
+def test_in_slow_motion_thrust_lasts_its_time_out_on_the_slow_clock():
+    with BoatProcess({**GLIDER, 'publish_clock': True, 'time_factor': 0.2}) as boat, \
+            Probe(boat.namespace) as one:
+        thrust = one.publisher(WrenchStamped, 'thrust', BEST_EFFORT)
+        twists = one.listen_to_boat()[1]
+        one.until(lambda: twists)
+        thrust.publish(wrench((2000.0, 0.0, 0.0)))
+        one.until(lambda: twists[-1].twist.linear.x > 0.0)
+        one.spin(3.5)
+    _, speed = speeds(twists)
+    # Half a second of it is two and a half on the wall.
+    assert 49 <= np.count_nonzero(np.diff(speed) > 0) <= 52
+
+
 def test_a_refused_wrench_leaves_the_last_good_one_its_time_out(glider, probe):
     probe.thrust.publish(wrench((2000.0, 0.0, 0.0)))
     probe.until(lambda: probe.twists[-1].twist.linear.x > 0.0)

@@ -157,10 +157,10 @@ def test_a_reset_ends_thrust_and_angle_and_what_the_lag_still_holds():
     session = Session(load_scene({**BOAT, 'thrusters.lag': 1.0}))
     session.thrusters.hold('left', 500.0, 0.0)
     session.thrusters.angles['left'] = 1.0
-    session.step(0.1)
+    session.step()
     assert session.propulsion.forces['left'] > 0.0
     session.reset()
-    session.step(0.1)
+    session.step()
     assert session.propulsion.forces['left'] == 0.0 and session.thrusters.angles == {}
     assert session.simulation.motion.body_velocity[0] == 0.0
 
@@ -171,5 +171,5 @@ def test_another_time_out_holds_for_thrusters_too():
     session.thrusters.hold('left', 500.0, 0.0)
     assert session.thrusters.commands(0.6) == {}
     longer = load_scene({**BOAT, 'thrust.timeout': 2.0})
-    session.change(longer, longer.simulation())
+    session.change(longer)
     assert session.thrusters.commands(0.6) == {'left': 500.0}

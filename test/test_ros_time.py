@@ -137,6 +137,41 @@ def test_an_external_clock_drives_the_steps_pauses_and_jumps_back():
             boat.wait_for_log('fell behind')
 
 
+# Its wall clock goes back by an hour and a bit at a signal.
+STEPPED = """
+import signal, sys, time
+real, ahead = time.time_ns, [0]
+time.time_ns = lambda: real() + ahead[0]
+signal.signal(signal.SIGUSR1, lambda *_: ahead.append(ahead.pop() - 3_600_250_000_000))
+from boat_buoyancy.ros.node import main
+sys.exit(main())
+"""
+
+
+def test_stamps_and_sea_follow_a_wall_clock_that_steps_back_and_no_step_is_dropped():
+    with BoatProcess({'status_period': 0.0, 'sea.waves': WAVES, 'sea.transition': 0.5},
+                     script=STEPPED) as boat, Probe(boat.namespace) as one:
+        poses, clouds = one.listen_to_boat()[0], one.listen(PointCloud2, 'probes')
+        one.until(lambda: len(poses) > 50 and clouds)
+        began, first = time.monotonic(), len(poses)
+        boat.process.send_signal(signal.SIGUSR1)
+        one.spin(3.0)
+        count, lasted = len(poses) - first, time.monotonic() - began
+        line = boat.wait_for_log('the wall clock was stepped by -3600.250 s')
+        assert boat.log.count('stepped') == 1 and '[WARN]' in line
+        stamps = stamps_of(poses)
+        assert (stamps % PERIOD == 0).all()
+        back, = np.flatnonzero(np.diff(stamps) < 0)
+        assert set(np.diff(stamps[:back + 1])) == set(np.diff(stamps[back + 1:])) == {PERIOD}
+        assert abs(time.time_ns() - 3_600_250_000_000 - stamps[-1]) < 0.1e9
+        # The boat is shown once more with its new stamp.
+        assert count == pytest.approx(lasted * 100 + 1, abs=5)
+        assert 'fell behind' not in boat.log
+        clouds.clear()
+        one.until(lambda: len(clouds) > 30)
+        check_water(clouds, WAVES)
+
+
 def test_a_process_that_was_stopped_goes_on_from_the_present_and_says_so():
     with BoatProcess({'status_period': 0.0, 'sea.waves': WAVES, 'sea.transition': 0.5}) as boat, \
             Probe(boat.namespace) as one:

@@ -21,6 +21,7 @@ from time import perf_counter
 
 from boat_buoyancy.physics import load_fleet, load_scene, Scene, State
 from boat_buoyancy.physics.boat.state import body_frame
+from boat_buoyancy.physics.hydrostatics import rest
 from boat_buoyancy.physics.scene import scene as scenes
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from boat_buoyancy.physics.scene.scene import scene_from_values
@@ -577,3 +578,57 @@ def test_a_fleet_says_once_what_its_scenes_warn_of_and_of_which():
     sinks = {'probes.positions': [0.0, 0.0, 0.0], 'probes.floatiness': 0.5}
     said, = load_fleet([{'probes.positions': [0.0, 0.0, -0.2]}, sinks, dict(sinks)]).warnings[-1:]
     assert said.startswith('scene 1: The boat sinks')
+
+
+CHANGES = {
+    'boat.mass': 2100.0, 'boat.inertia': [900.0, 3000.0, 3500.0], 'damping.probe': 10.0,
+    'damping.linear_retention': [0.8], 'damping.angular_retention': [0.7, 0.8, 0.9],
+    'damping.air_linear_retention': [0.9], 'damping.air_angular_retention': [0.9],
+    'damping.linear': [10.0] * 6, 'damping.quadratic': [5.0] * 6,
+    'sea.waves': [0.1, 4.0, 0.0, 0.0], 'sea.sea_state': 3, 'sea.current': [0.5, 0.0],
+    'sea.depth': 5.0, 'sea.transition': 1.0, 'thrust.timeout': 2.0, 'gravity': 3.7,
+    'start.position': [1.0, 2.0], 'hull.size': [5.0, 2.0, 1.0], 'rate': 50.0,
+    'hull.bottom': -0.4, 'water_density': 1000.0}
+
+
+def described(scene):
+    """Return all that a scene says of itself, to the bit."""
+    return [scene.values, scene.warnings, scene.plan(), scene.thrust_timeout, scene.rate,
+            scene.boat.record.tobytes(), scene.boat.probe_records.tobytes(),
+            scene.sea.record.tobytes(), scene.sea.table.tobytes(),
+            *(getattr(scene.start, part).tobytes() for part in (
+                'position', 'orientation', 'velocity', 'angular_velocity'))]
+
+
+@pytest.mark.parametrize('name', CHANGES)
+@pytest.mark.parametrize('first', [{}, {'damping.probe': 500.0, 'boat.center_of_mass': [
+    0.1, 0.0, 0.2]}])
+def test_what_is_taken_over_from_a_scene_before_makes_the_scene_that_is_made_anew(first, name):
+    before, values = load_scene(first), {**first, name: CHANGES[name]}
+    assert described(scene_from_values(values, before)) == described(load_scene(values))
+    # And back, and to what was derived, given.
+    assert described(scene_from_values(first, load_scene(values))) == described(before)
+    again = scene_from_values(before.values, before)
+    assert described(again) == described(load_scene(before.values))
+
+
+def test_a_change_works_out_anew_only_what_depends_on_it():
+    before = load_scene({'sea.sea_state': 3})
+
+    def changed(**values):
+        return scene_from_values({**before.given, **{
+            name.replace('__', '.'): value for name, value in values.items()}}, before)
+    later = changed(thrust__timeout=2.0)
+    assert (later.boat, later.sea, later.start) == (before.boat, before.sea, before.start)
+    later = changed(sea__current=[0.5, 0.0])
+    assert later.boat is before.boat and later.sea is not before.sea
+    # Another damping leaves how the boat lies, and what there is to say of it.
+    misses = rest._floating_height.cache_info().misses
+    later = changed(damping__linear=[10.0] * 6)
+    later.simulation()
+    assert later.boat.damping.linear[0] == 10.0 and later.boat.hull is before.boat.hull
+    assert later.flotation is before.flotation and later.start is before.start
+    assert rest._floating_height.cache_info().misses == misses
+    # All that is derived, given as it was derived, changes nothing.
+    later = scene_from_values(before.values, before)
+    assert (later.boat, later.sea, later.start) == (before.boat, before.sea, before.start)

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-What the steps follow: the steady clock, or a /clock from elsewhere.
+What the steps follow: the wall clock, a clock of their own, or a /clock from elsewhere.
 
 A drive says how many steps are due now.  Time that the machine could not keep up with is given
 up, counted, and said.
@@ -30,8 +30,8 @@ class Turn:
     """
     What a look at the clock gave.
 
-    ``due`` steps to run now; ``dropped`` steps given up; ``moved_to`` ns, where the clock of a
-    /clock jumped or started, else None.
+    ``due`` steps to run now; ``dropped`` steps given up; ``moved_to`` ns, where the clock of the
+    stamps jumped or started, else None.
     """
 
     due: int
@@ -41,24 +41,31 @@ class Turn:
 
 class SteadyDrive:
     """
-    Steps paced by the steady clock.
+    Steps paced by the steady clock, whose stamps are a clock of their own.
 
-    Main arguments: ``rate`` Hz; ``time_factor`` simulated over wall time, 0 = as fast as can be.
-    ``skips``: True when the stamps are wall time, so that what is given up is lost to the boat;
-    False when the stamps are the node's own clock, which then goes slower.
+    Main arguments: ``rate`` Hz; ``time_factor`` simulated over wall time, 0 = as fast as can be;
+    ``start`` ns, the stamp of step 0.
+    ``skips``: True when what is given up is lost to the boat, as stamps are another clock's; False
+    when their own clock goes slower.
     """
 
-    def __init__(self, rate, time_factor, *, skips):
-        """Start now."""
-        self.skips = skips
+    skips = False
+
+    def __init__(self, rate, time_factor, start=0):
+        """Start with the first turn."""
         self._free = time_factor == 0.0
-        self._counter = StepCounter(rate * (time_factor or 1.0), time.monotonic_ns())
+        self._counter = StepCounter(rate * (time_factor or 1.0), 0)
+        self._moved_to = start
 
     def turn(self):
         """Return the `Turn` of this moment."""
+        if self._moved_to is not None:
+            moved_to, self._moved_to = self._moved_to, None
+            self._counter.restart(self._now())
+            return Turn(0, moved_to=moved_to)
         if self._free:
             return Turn(1)
-        now = time.monotonic_ns()
+        now = self._now()
         dropped = self._counter.drop(now)
         return Turn(self._counter.due(now), dropped)
 
@@ -66,7 +73,7 @@ class SteadyDrive:
         """Return the s until a step is due, at least 0."""
         if self._free:
             return 0.0
-        return max(0.0, (self._counter.next_at() - time.monotonic_ns()) / NANOSECONDS)
+        return max(0.0, (self._counter.next_at() - self._now()) / NANOSECONDS)
 
     def ran(self):
         """Count one step as run."""
@@ -74,13 +81,71 @@ class SteadyDrive:
 
     def resume(self):
         """Return how many steps to skip after a pause."""
-        now = time.monotonic_ns()
-        if not self.skips:
-            self._counter.restart(now)
-            return 0
-        missed = max(0, self._counter.due(now))
+        self._counter.restart(self._now())
+        return 0
+
+    def _now(self):
+        return time.monotonic_ns()
+
+
+class WallDrive(SteadyDrive):
+    """
+    Steps at the wall time that their stamps say, paced by the steady clock.
+
+    The two clocks differ by a number, until the wall clock is stepped (by NTP, by hand, or while
+    the machine slept); then the stamps follow.
+
+    Main arguments: ``rate`` Hz; ``wall`` () -> ns; ``say``, called with a sentence on each step.
+    """
+
+    LOOK_PERIOD = 10 ** 9  # ns between comparisons of the clocks
+    TOLERANCE = 2_000_000  # ns; more is a step
+    APART = 100_000  # ns; readings of two clocks that are farther apart are no comparison
+    skips = True
+
+    def __init__(self, rate, wall, say):
+        """Read both clocks."""
+        self._wall, self._say = wall, say
+        steady, now = self._read()
+        self._ahead, self._next_look = now - steady, steady + self.LOOK_PERIOD
+        super().__init__(rate, 1.0, now)
+
+    def turn(self):
+        """Return the `Turn` of this moment."""
+        if self._moved_to is None and time.monotonic_ns() >= self._next_look:
+            self._compare()
+        return super().turn()
+
+    def resume(self):
+        """Return how many steps to skip after a pause."""
+        missed = max(0, self._counter.due(self._now()))
         self._counter.advance(missed)
         return missed
+
+    def _compare(self):
+        """Follow the wall clock if it was stepped; what is due stays so."""
+        steady, wall = self._read()
+        self._next_look = steady + self.LOOK_PERIOD
+        step = wall - steady - self._ahead
+        if abs(step) <= self.TOLERANCE:
+            return
+        due = self._counter.due(steady + self._ahead)
+        self._ahead += step
+        self._counter.restart(wall)
+        self._counter.advance(-due)
+        self._moved_to = self._counter.done_at()
+        self._say(f'the wall clock was stepped by {step / NANOSECONDS:+.3f} s: stamps and sea '
+                  'follow')
+
+    def _read(self):
+        """Return the steady and the wall time of one moment, in ns."""
+        while True:
+            steady, wall = time.monotonic_ns(), self._wall()
+            if time.monotonic_ns() - steady <= self.APART:
+                return steady, wall
+
+    def _now(self):
+        return time.monotonic_ns() + self._ahead
 
 
 class ClockDrive:

@@ -16,10 +16,13 @@
 
 from dataclasses import dataclass
 import math
+import os
+
+import numpy as np
 
 from ..physics.compiled import kind
 from ..physics.hydrostatics.natural_modes import modes
-from ..physics.hydrostatics.rest import draft, floats, rest_state
+from ..physics.hydrostatics.rest import draft, floats, rest_attitude, rest_state
 
 
 @dataclass(frozen=True)
@@ -68,9 +71,9 @@ class Meter:
         return figures
 
 
-def values(session, meter, figures, complaints, now):
-    """Return {key: text} of all that a status shows; ``now`` s on the steady clock."""
-    simulation, age = session.simulation, session.thrust.age(now)
+def values(session, meter, figures, complaints):
+    """Return {key: text} of all that a status shows."""
+    simulation, age = session.simulation, session.thrust.age(session.age)
     shown = {
         'rate asked (Hz)': f'{simulation.rate:g}',
         'rate held (Hz)': f'{figures.rate:.2f}',
@@ -93,15 +96,17 @@ def values(session, meter, figures, complaints, now):
 def loaded(scene, simulation):
     """Return one line that says what was loaded and what the boat will do."""
     boat, sea, values = scene.boat, scene.sea, scene.values
-    hull = (' x '.join(f'{size:g}' for size in values['hull.size']) + ' m '
-            + values['hull.shape'] if 'hull.shape' in values else 'boat')
-    count = len(boat.hull.positions)
-    what = f'{hull} of {boat.mass:g} kg on {count} probe{"s" if count > 1 else ""}'
+    what = f'{_shape(values)} of {boat.mass:g} kg on {carriers(boat.hull)}'
     if floats(boat):
         motions = ', '.join(
             f'{name} {mode.period:.3g} s' if mode.period else f'{name} not righted'
             for name, mode in modes(boat).items())
-        does = f'draft {draft(boat, rest_state(boat)):.3f} m, {motions}'
+        lies = ''.join(f'{name} {abs(angle):.1f} deg {side if angle > 0.0 else other}, '
+                       for name, angle, side, other in zip(
+                           ('list', 'trim'), np.degrees(rest_attitude(boat) or (0.0, 0.0)),
+                           ('to starboard', 'by the bow'), ('to port', 'by the stern'))
+                       if abs(angle) >= 0.05)
+        does = f'draft {draft(boat, rest_state(boat)):.3f} m, {lies}{motions}'
     else:
         does = f'sinks, floatiness {boat.floatiness:.3g}'
     height = 4.0 * math.sqrt(float((sea.waves[:, 0] ** 2).sum()) / 2.0)
@@ -111,6 +116,24 @@ def loaded(scene, simulation):
     return (f'{what}: {does}; {simulation.rate:g} Hz, {simulation.integrator}, '
             f'{simulation.substeps} substep{"s" if simulation.substeps > 1 else ""}, {kind()}; '
             f'{water}')
+
+
+def _shape(values):
+    """Return the shape of the hull in words."""
+    if 'hull.shape' not in values:
+        return 'boat'
+    if values['hull.shape'] == 'mesh':
+        return os.path.basename(values['hull.mesh'])
+    return f'{" x ".join(f"{size:g}" for size in values["hull.size"])} m {values["hull.shape"]}'
+
+
+def carriers(hull):
+    """Return in words what lifts a `Hull`: how many probes or panels."""
+    if hull.panels is not None:
+        return (f'{len(hull.panels.triangles)} panels of at most '
+                f'{hull.panels.longest_edge:.2g} m')
+    count = len(hull.positions)
+    return f'{count} probe{"s" if count > 1 else ""}'
 
 
 def status_line(frame, time, real_time_factor, paused):

@@ -33,6 +33,9 @@ DRY, WET = np.array([0.95, 0.55, 0.10]), np.array([0.10, 0.30, 0.85])
 CELLS, SPREAD = 16, 3.0
 # Length of the line of a probe that carries its share of the weight, over the boat's length.
 LINE = 0.25
+HULL = (0.85, 0.85, 0.8, 0.6)
+# The most triangles of a hull that are drawn.
+MOST_TRIANGLES = 2000
 
 
 class Markers:
@@ -46,15 +49,22 @@ class Markers:
         """Build the message once."""
         self._publisher = node.create_publisher(MarkerArray, 'markers', qos.OUTPUT)
         self._next = 0.0
-        low, high = _corners(scene)
-        self._middle, size = tuple(((low + high) / 2).tolist()), high - low
+        low, high = _corners(scene.boat.hull)
+        size, surface = high - low, scene.boat.hull.surface
         self._length = length = float(np.linalg.norm(size[:2])) or 1.0
         grid = np.linspace(-0.5, 0.5, CELLS + 1) * SPREAD * length
         self._cell = grid[1] - grid[0]
         self._grid = np.stack(np.meshgrid(grid, grid, indexing='ij'), axis=-1)
 
         self._header = header = Header(frame_id=scene.world_frame)
-        self._hull = _marker(header, 'hull', Marker.CUBE, size, (0.85, 0.85, 0.8, 0.6))
+        # In body axes, placed as a whole; as a box where it has no surface, or too fine a one.
+        if surface is None or len(surface.triangles) > MOST_TRIANGLES:
+            self._hull = _marker(header, 'hull', Marker.CUBE, size, HULL)
+            self._middle = tuple(((low + high) / 2).tolist())
+        else:
+            self._hull = _marker(header, 'hull', Marker.TRIANGLE_LIST, np.ones(3), HULL)
+            self._hull.points, self._middle = _points(3 * len(surface.triangles)), (0.0,) * 3
+            _set_points(self._hull.points, surface.facets.reshape(-1, 3))
         probes = _marker(header, 'probes', Marker.SPHERE_LIST, np.full(3, 0.04 * length))
         forces = _marker(header, 'forces', Marker.LINE_LIST, (0.02 * length, 0.0, 0.0),
                          (0.8, 0.1, 0.1, 0.9))
@@ -102,14 +112,12 @@ class Markers:
         return np.stack([x, y, height], axis=-1).reshape(-1, 3)
 
 
-def _corners(scene):
+def _corners(hull):
     """Return the lowest and highest corner (3,) of the hull as drawn, in the body frame."""
-    positions, size = scene.boat.hull.positions, scene.values.get('hull.size')
-    if size is not None:
-        low = np.array([-size[0] / 2, -size[1] / 2, positions[0, 2]])
-        return low, low + size
+    if hull.surface is not None:
+        return tuple(hull.surface.extent)
     # Without a shape the box around the probes, with the height of one above them.
-    height = float(scene.boat.hull.height.max())
+    positions, height = hull.positions, float(hull.height.max())
     margin = 0.05 * height
     return (positions.min(axis=0) - margin,
             positions.max(axis=0) + [margin, margin, height])

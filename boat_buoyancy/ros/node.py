@@ -15,11 +15,11 @@
 """
 The node: it wires topics, services and parameters to a `Session` and steps it.
 
-Everything happens in one thread, so callbacks act between two steps; `tick` runs at most one
-step and is called as often as there is something to do.
+Everything happens in one thread, so callbacks act between two steps; `tick` runs the steps that
+are due and is called as often as there is something to do.
 """
 
-import signal
+import os
 import sys
 import time
 
@@ -30,7 +30,8 @@ from std_srvs.srv import SetBool, Trigger
 
 from . import qos, startup, transforms
 from .complaints import Refused
-from .drive import ClockDrive, SteadyDrive
+from .drive import ClockDrive, SteadyDrive, WallDrive
+from .ending import told_to_end
 from .initial_pose import read_place
 from .markers import Markers
 from .messages import ClockOutput, Outputs
@@ -48,6 +49,8 @@ from ..physics.scene.scene import scene_from_values
 from ..physics.stepping.march import march_by
 
 IDLE = 0.05  # s between looks at the signals and clocks when nothing is due
+# Steps that are due go before what others ask for, but for no longer than this at a time.
+BUSY = 0.02  # s
 
 
 class BoatNode(ParameterNode):
@@ -61,6 +64,9 @@ class BoatNode(ParameterNode):
         with startup.warnings_said(self.get_logger().warning):
             if given.get('publish_tf') is True:
                 given.setdefault('frame_prefix', transforms.prefix(self.get_namespace()))
+            if 'hull.mesh' in given:
+                folder = startup.folder_of(sys.argv, 'hull.mesh', given['hull.mesh'])
+                given['hull.mesh'] = os.path.join(folder, given['hull.mesh'])
             scene = scene_from_values(given)
             startup.check_time(scene.values, self._sim_time)
             transforms.check(scene.values)
@@ -69,7 +75,6 @@ class BoatNode(ParameterNode):
                 self.get_logger().info(compiling)
             self.session = Session(scene)
         self._own_clock = scene.values['publish_clock']
-        wall = not self._own_clock and not self._sim_time
         self.declare(scene)
         LiveParameters(self, given, scene, self._change)
         self._paused = False
@@ -89,27 +94,31 @@ class BoatNode(ParameterNode):
         self.create_subscription(
             WrenchStamped, 'thrust', guarded('thrust', self._on_thrust), qos.THRUST)
         for thruster in scene.thrusters:
-            ThrusterInput(self, thruster.name, self.session, guarded, time.monotonic)
+            ThrusterInput(self, thruster.name, self.session, guarded)
         self.create_subscription(PoseWithCovarianceStamped, 'initialpose',
                                  guarded('initialpose', self._on_place), qos.REQUEST)
         self.create_service(Trigger, '~/reset', self._on_reset)
         self.create_service(SetBool, '~/set_paused', self._on_set_paused)
         self.create_service(Trigger, '~/step', self._on_step)
 
-        self._drive = (
-            ClockDrive(scene.rate, lambda: self.get_clock().now().nanoseconds,
-                       self.get_logger().warning) if self._sim_time else
-            SteadyDrive(scene.rate, scene.values['time_factor'], skips=wall))
-        if wall:
-            self.session.rebase(self.get_clock().now().nanoseconds)
+        self._drive = self._chosen_drive(scene.rate, scene.values['time_factor'])
         self._waves_output.publish(self.session.sea)
-        if not self._sim_time:
-            self._publish()
+
+    def _chosen_drive(self, rate, time_factor):
+        """Return what the steps follow."""
+        if self._sim_time:
+            return ClockDrive(rate, lambda: self.get_clock().now().nanoseconds,
+                              self.get_logger().warning)
+        if self._own_clock:
+            return SteadyDrive(rate, time_factor)
+        if time_factor != 1.0:
+            return SteadyDrive(rate, time_factor, time.time_ns())
+        return WallDrive(rate, time.time_ns, self.get_logger().warning)
 
     # What is done over and over.
 
     def tick(self):
-        """Run at most one step and what is due beside it; return the s until the next look."""
+        """Run the steps that are due and what is beside them; return the s until the next look."""
         now = time.monotonic()
         self._look_around(now)
         if self._paused or self.session.fault:
@@ -122,14 +131,15 @@ class BoatNode(ParameterNode):
             self._reports.dropped(turn.dropped, self._drive.skips, now)
             if self._drive.skips:
                 self.session.skip(turn.dropped)
-        if turn.due > 0:
-            self._step(now)
+        for _ in range(turn.due):
+            if not self._step() or time.monotonic() - now > BUSY:
+                break
         return min(self._drive.wait(), IDLE)
 
-    def _step(self, now):
+    def _step(self):
         """Step once and publish what came of it; return True when it went well."""
         began = time.monotonic()
-        if not self.session.step(now):
+        if not self.session.step():
             self._reports.stopped()
             return False
         self._drive.ran()
@@ -155,7 +165,7 @@ class BoatNode(ParameterNode):
 
     def _on_thrust(self, message):
         wrench, in_world = read_wrench(message, self.session.scene)
-        self.session.thrust.hold(wrench, in_world, time.monotonic())
+        self.session.thrust.hold(wrench, in_world, self.session.age)
 
     def _on_waves(self, rows):
         if self.session.set_waves(rows):
@@ -178,10 +188,10 @@ class BoatNode(ParameterNode):
         if self._paused:
             self._publish()
 
-    def _change(self, scene, simulation, names):
+    def _change(self, scene, plan, names):
         before = self.session.sea
-        self.session.change(scene, simulation, names)
-        self._reports.warnings(simulation)
+        self.session.change(scene, plan, names)
+        self._reports.warnings(scene, plan)
         if self.session.sea is not before:
             self._waves_output.publish(self.session.sea)
 
@@ -207,7 +217,7 @@ class BoatNode(ParameterNode):
         if not self._paused:
             response.success = False
             response.message = 'expected a paused node: call ~/set_paused with data: true first'
-        elif self._step(time.monotonic()):
+        elif self._step():
             response.success = True
             response.message = f'at {self.session.steps / self.session.simulation.rate:g} s'
         else:
@@ -217,9 +227,12 @@ class BoatNode(ParameterNode):
 
 def main(arguments=None):
     """Run the node until a signal and return its exit status."""
-    stop = []
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: stop.append(1))
+    with told_to_end() as told:
+        return _run(arguments, told)
+
+
+def _run(arguments, told):
+    """Run the node until an event is set and return its exit status."""
     try:
         given = sys.argv if arguments is None else arguments
         # Files first: what finds the arguments of ROS reads them, too, and says less.
@@ -237,7 +250,7 @@ def main(arguments=None):
     executor = startup.executor()
     executor.add_node(node)
     try:
-        while not stop:
+        while not told.is_set():
             wait = node.tick()
             try:
                 executor.spin_once(wait)

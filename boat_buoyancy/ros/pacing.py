@@ -15,8 +15,9 @@
 """
 Which step is due, and which stamp it has: two counts, no running sums.
 
-`StepCounter` compares steps done with time gone by; `Timeline` turns steps into stamps.  Both
-are exact for any rate: they count in integers and fractions.
+Stamps lie on a grid, the multiples of 1/rate, so that those of several boats are the same.
+`StepCounter` compares steps done with the grid of a clock; `Timeline` turns steps into stamps.
+Both are exact for any rate: they count in integers and fractions.
 """
 
 from dataclasses import dataclass, replace
@@ -29,29 +30,45 @@ NANOSECONDS = 10 ** 9
 CATCH_UP = 1.0  # s
 
 
+class Grid:
+    """The multiples of 1/rate, in whole ns rounded down; ``rate`` in Hz."""
+
+    def __init__(self, rate):
+        """Keep the period as a fraction."""
+        rate = Fraction(rate)
+        # Whole numbers from here on: a Fraction costs more than a step's share of the loop.
+        self._steps, self._span = rate.numerator, rate.denominator * NANOSECONDS
+
+    def stamp(self, period):
+        """Return when a period begins, in ns."""
+        return period * self._span // self._steps
+
+    def period(self, now):
+        """Return the number of the period that ``now`` ns is in: the last that has begun."""
+        return -(-(now + 1) * self._steps // self._span) - 1
+
+
 class StepCounter:
     """
-    Steps due on a clock that only goes forward.
+    Steps due on a clock that only goes forward: one with each period of its grid that begins.
 
-    Main arguments: ``rate`` steps per second of that clock; ``now`` ns, when step 0 is done.
+    Main arguments: ``rate`` steps per second of that clock; ``now`` ns, in the period of step 0.
     Other arguments: ``catch_up`` s, the longest hitch whose steps are run late and not dropped.
     """
 
     def __init__(self, rate, now, *, catch_up=CATCH_UP):
         """Start counting at ``now``."""
-        rate = Fraction(rate)
-        # Whole numbers from here on: a Fraction costs more than a step's share of the loop.
-        self._steps, self._span = rate.numerator, rate.denominator * NANOSECONDS
-        self._limit = max(1, int(rate * Fraction(catch_up)))
+        self._grid = Grid(rate)
+        self._limit = max(1, int(Fraction(rate) * Fraction(catch_up)))
         self.restart(now)
 
     def restart(self, now):
-        """Forget what was missed: step 0 is done at ``now`` ns."""
-        self._start, self._done = now, 0
+        """Forget what was missed: the step of the period that ``now`` ns is in is done."""
+        self._done = self._grid.period(now)
 
     def due(self, now):
         """Return how many steps are due at ``now`` ns; negative when ahead of the clock."""
-        return (now - self._start) * self._steps // self._span - self._done
+        return self._grid.period(now) - self._done
 
     def advance(self, steps=1):
         """Count steps as done, run or given up."""
@@ -65,33 +82,30 @@ class StepCounter:
         self.advance(due - 1)
         return due - 1
 
+    def done_at(self):
+        """Return when the last step that was done was due, in ns."""
+        return self._grid.stamp(self._done)
+
     def next_at(self):
         """Return when the next step is due, in ns."""
-        return self._start - -(self._done + 1) * self._span // self._steps
+        return self._grid.stamp(self._done + 1)
 
 
 @dataclass(frozen=True)
 class Timeline:
-    """
-    The stamps of steps: ``start`` ns is that of step ``first``, every other follows from it.
+    """The stamps of steps: that of step n is the beginning of period ``offset`` + n of a grid."""
 
-    ``rate`` is in steps per second; a `Fraction` keeps 1/rate exact.
-    """
-
-    rate: Fraction
-    start: int
-    first: int = 0
+    grid: Grid
+    offset: int = 0
 
     def stamp(self, step):
         """Return the stamp of a step in ns."""
-        rate = self.rate
-        return self.start + (
-            (step - self.first) * NANOSECONDS * rate.denominator // rate.numerator)
+        return self.grid.stamp(self.offset + step)
 
     def skipped(self, periods):
         """Return the timeline in which the steps to come are so many periods later."""
-        return replace(self, first=self.first - periods)
+        return replace(self, offset=self.offset + periods)
 
     def rebased(self, start, step):
-        """Return the timeline in which ``step`` has the stamp ``start`` ns."""
-        return replace(self, start=start, first=step)
+        """Return the timeline in which ``step`` is that of the period ``start`` ns is in."""
+        return replace(self, offset=self.grid.period(start) - step)

@@ -20,12 +20,14 @@ judged by the table and the scene, and their sentence is the reason given.
 """
 
 from array import array
+import re
 
 from rcl_interfaces.msg import (FloatingPointRange, IntegerRange, ParameterDescriptor,
                                 SetParametersResult)
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from .session import WAVES
 from ..physics.scene.parameter_file import ROS_OWN
 from ..physics.scene.parameters import check_names, PARAMETERS, WAVE_KINDS
 from ..physics.scene.scene import scene_from_values
@@ -47,6 +49,24 @@ def plain(parameter):
         # `[]` in a file: rcl knows no type for it.
         return []
     return list(parameter.value) if isinstance(parameter.value, array) else parameter.value
+
+
+def typed(parameter):
+    """
+    Return `plain`; ValueError with what to type for a list of numbers that came as text.
+
+    As text comes what ROS has no type for: a list of integers and others, or a list of lists.
+    """
+    value = plain(parameter)
+    if isinstance(value, str) and PARAMETERS[parameter.name].kind == 'float_array':
+        try:
+            numbers = [float(word) for word in re.sub(r'[][,;]', ' ', value).split()]
+        except ValueError:
+            return value
+        raise ValueError(f'{parameter.name}: expected one flat list of numbers, all with a '
+                         f"decimal point or all without, got the text {value!r}; type "
+                         f"'{numbers}'")
+    return value
 
 
 def ros_parameter(name, value):
@@ -141,12 +161,14 @@ class LiveParameters:
     Parameters that change while the node runs: a set is judged as a whole, then applied.
 
     Main arguments: ``node``; ``given`` {name: value}, what the user gave; ``scene`` made of it;
-    ``apply`` (scene, simulation, names that were set), called between two steps.
+    ``apply`` (scene, plan, names that were set), called between two steps, with the `Plan` of
+    another boat, None where the boat is the same.
     """
 
     def __init__(self, node, given, scene, apply):
         """Take part in every set from now on."""
-        self._given, self._scene, self._apply = dict(given), scene, apply
+        self._at_start, self._given = dict(given), dict(given)
+        self._scene, self._apply = scene, apply
         self._proposal = self._refusal = None
         node.add_pre_set_parameters_callback(self._propose)
         node.add_on_set_parameters_callback(self._judge)
@@ -157,9 +179,10 @@ class LiveParameters:
         self._proposal = self._refusal = None
         try:
             given = self._merged(requested)
-            scene = scene_from_values(given)
+            scene = scene_from_values(given, self._scene)
             names = {parameter.name for parameter in requested}
-            self._proposal = given, scene, scene.simulation(), frozenset(names)
+            plan = None if scene.boat is self._scene.boat else scene.plan()
+            self._proposal = given, scene, plan, frozenset(names)
         except Exception as error:  # a raise here would be the end of the node
             self._refusal = ' '.join(str(error).split()) or repr(error)
             # rclpy looks at types and ranges first: give it nothing to add to our reason.
@@ -179,11 +202,10 @@ class LiveParameters:
             if PARAMETERS[parameter.name].read_only:
                 raise ValueError(f'{parameter.name}: cannot change while the node runs; '
                                  'start it again with the new value')
+            given[parameter.name] = typed(parameter)
             if parameter.type_ is Parameter.Type.NOT_SET:
-                # `ros2 param delete`: back to the default, or to what follows from others.
-                given.pop(parameter.name, None)
-            else:
-                given[parameter.name] = plain(parameter)
+                # `ros2 param delete`: back to the start, where None was not given.
+                given[parameter.name] = self._at_start.get(parameter.name)
         # A set that asks for one kind of waves replaces the others.
         for kind in WAVE_KINDS:
             if any(given.get(name) for name in kind if name in names):
@@ -191,7 +213,10 @@ class LiveParameters:
                     for name in other:
                         if other is not kind and name not in names:
                             given.pop(name, None)
-        return given
+        # What is deleted brings back the waves that it replaced.
+        if WAVES.intersection(names) and not any(map(given.get, WAVES)):
+            given.update((name, self._at_start.get(name)) for name in WAVES.difference(names))
+        return {name: value for name, value in given.items() if value is not None}
 
     def _in_force(self, parameter):
         value = self._scene.values.get(parameter.name)
@@ -205,6 +230,6 @@ class LiveParameters:
     def _take(self, _):
         if self._proposal is None:
             return
-        self._given, self._scene, simulation, names = self._proposal
+        self._given, self._scene, plan, names = self._proposal
         self._proposal = None
-        self._apply(self._scene, simulation, names)
+        self._apply(self._scene, plan, names)

@@ -48,20 +48,23 @@ class Reports:
         self._status_period = session.scene.values['status_period']
         self._next_status = now + self._status_period
         self._twin_seen, self._drops_said, self._unsaid_drops = False, None, 0
-        self._said = set()
+        self._said, self._stepping = set(), ()
 
     def loaded(self):
         """Say what was loaded and what the boat will do, and what is wrong with it."""
-        simulation = self._session.simulation
-        self._log.info(figures.loaded(self._session.scene, simulation))
-        self.warnings(simulation)
+        scene, simulation = self._session.scene, self._session.simulation
+        self._log.info(figures.loaded(scene, simulation))
+        self.warnings(scene, scene.plan())
 
-    def warnings(self, simulation):
-        """Say the warnings of a simulation that were not said before."""
-        for sentence in simulation.warnings:
+    def warnings(self, scene, plan=None):
+        """Say the warnings of a scene, and of its `Plan` if that is new, not said before."""
+        if plan is not None:
+            self._stepping = plan.warnings
+        sentences = (*scene.warnings, *self._stepping)
+        for sentence in sentences:
             if sentence not in self._said:
                 self._log.warning(sentence)
-        self._said = set(simulation.warnings)
+        self._said = set(sentences)
 
     def stepped(self, seconds):
         """Count a step that took so long, with its publications."""
@@ -109,7 +112,7 @@ class Reports:
             level, message = DiagnosticStatus.WARN, f'{held.dropped} steps dropped'
         if self._session.fault:
             level, message = DiagnosticStatus.ERROR, self._session.fault
-        values = figures.values(self._session, self._meter, held, self.complaints, now)
+        values = figures.values(self._session, self._meter, held, self.complaints)
         self._status.level, self._status.message = level, message
         self._status.values = [KeyValue(key=key, value=value) for key, value in values.items()]
         array = DiagnosticArray(status=[self._status])

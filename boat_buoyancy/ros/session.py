@@ -20,11 +20,10 @@ force at those stamps, the thrust that acts, and a fault if there was one.
 """
 
 from dataclasses import replace
-from fractions import Fraction
 
 import numpy as np
 
-from .pacing import NANOSECONDS, Timeline
+from .pacing import Grid, NANOSECONDS, Timeline
 from .thrust import ThrusterLatches, ThrustLatch
 from ..physics.hydrostatics.rest import rest_state
 from ..physics.scene.parameters import WAVE_KINDS
@@ -34,12 +33,12 @@ from ..physics.stepping.simulation import SimulationError
 # Parameters that ask for waves; the rest of sea.* only shapes them.
 WAVES = frozenset(name for kind in WAVE_KINDS for name in kind)
 
-
 class Session:
     """
     A scene under way.
 
-    Main arguments: ``scene`` a `Scene`; ``start`` ns, the stamp of step 0.
+    Main arguments: ``scene`` a `Scene`; ``start`` ns, the stamp of step 0 but for less than
+    a period: stamps are multiples of it.
     Public: ``scene``; ``simulation``; ``sea``, as given, its time 0 that of the stamps;
     ``thrust`` a `ThrustLatch`; ``thrusters`` `ThrusterLatches`; ``propulsion``, what they give;
     ``wrench`` (6), the thrust of the last period, or None; ``fault``, why the motion was stopped,
@@ -55,7 +54,8 @@ class Session:
         self.fault = self.wrench = None
         # A scene's centre of mass cannot change while it runs.
         self._center_of_mass = tuple(scene.boat.center_of_mass.tolist())
-        self._timeline = Timeline(Fraction(scene.rate), start)
+        self._timeline = Timeline(Grid(scene.rate)).rebased(start, 0)
+        self._skipped = 0
         # Steps of simulations that were replaced by this one.
         self._earlier = 0
         self.sea, self._waiting = scene.sea, False
@@ -76,9 +76,14 @@ class Session:
         """Return the stamp of the present state in ns."""
         return self._timeline.stamp(self.steps)
 
-    def step(self, now):
+    @property
+    def age(self):
+        """Return the s since the start on the clock of the stamps, through all its jumps."""
+        return (self.steps + self._skipped) / self.simulation.rate
+
+    def step(self):
         """
-        Advance one period; ``now`` s on the steady clock decides which thrust acts.
+        Advance one period.
 
         Returns False when the motion left what physics allows: the last good state stays,
         `fault` says why, and nothing moves until `reset`.
@@ -93,7 +98,7 @@ class Session:
             else:
                 simulation.sea = self._clocked(self.sea)
         try:
-            self.wrench = self._push(now)
+            self.wrench = self._push(self.age)
             simulation.step(self.wrench)
         except SimulationError as error:
             self.fault = str(error)
@@ -120,33 +125,42 @@ class Session:
         self._fade_to_given()
         return True
 
-    def change(self, scene, simulation, names=()):
+    def change(self, scene, plan=None, names=()):
         """
-        Go on with another boat or sea: a `Scene` of the same probes, and a simulation of it.
+        Go on with another boat or sea: a `Scene` of the same probes.
 
-        What moves keeps moving.  Waves that came by message stay unless the scene's changed or
-        ``names``, the parameters that were set, ask for waves.
+        ``plan`` is the `Plan` of another boat, None where it is the same.  What moves keeps
+        moving.  Waves that came by message stay unless the scene's changed or ``names``, the
+        parameters that were set, ask for waves.
         """
         before, self.scene = self.scene, scene
         self.thrust.timeout = scene.thrust_timeout
         self.thrusters.set_timeout(scene.thrust_timeout)
-        changed = {name for name, value in scene.values.items()
-                   if value != before.values.get(name)}
-        if any(name.startswith(('boat.', 'probes.', 'damping.')) for name in changed):
-            old, self.simulation = self.simulation, simulation
-            self._earlier += old.steps
-            simulation.reset(old.state)
-            simulation.sea = (old.sea.starting_at(old.time)
-                              if isinstance(old.sea, FadingSea) else self._clocked(self.sea))
+        if plan is not None:
+            self._change_boat(scene, plan)
         waves = (scene.sea.waves if WAVES.intersection(names)
                  or not np.array_equal(scene.sea.waves, before.sea.waves) else self.sea.waves)
-        if not np.array_equal(waves, self.sea.waves) or changed & {'sea.current', 'sea.depth'}:
+        if not np.array_equal(waves, self.sea.waves) or any(
+                scene.values[name] != before.values[name] for name in ('sea.current', 'sea.depth')):
             self.sea = replace(scene.sea, waves=waves)
             self._fade_to_given()
+
+    def _change_boat(self, scene, plan):
+        """Step the boat of a scene from now on, as a `Plan` says."""
+        old = self.simulation
+        if (plan.integrator, plan.substeps) == (old.integrator, old.substeps):
+            old.boat = scene.boat
+            return
+        self.simulation = scene.simulation()
+        self._earlier += old.steps
+        self.simulation.reset(old.state)
+        self.simulation.sea = (old.sea.starting_at(old.time) if isinstance(old.sea, FadingSea)
+                               else self._clocked(self.sea))
 
     def skip(self, periods):
         """Let the time of the stamps go on by so many periods in which the boat did not move."""
         if periods > 0:
+            self._skipped += periods
             self._move(self._timeline.skipped(periods))
 
     def rebase(self, stamp):

@@ -48,6 +48,17 @@ USAGE = (f'usage: {PROGRAM} [--ros-args [--params-file FILE] [-p NAME:=VALUE] '
          'config/default.yaml says what every parameter means, as does ros2 param describe.')
 
 
+def folder_of(arguments, name, value):
+    """Return the folder of the parameter file that gives a parameter its value, or '.'."""
+    for path in reversed(parameter_files(arguments)):
+        try:
+            if parameter_file.read(path).get(name) == value:
+                return os.path.dirname(path) or '.'
+        except ValueError:  # a file without a section that reads as ours
+            continue
+    return '.'
+
+
 def check_arguments(arguments):
     """
     Return True when the arguments ask for help; ValueError for one that nothing looks at.
@@ -131,6 +142,10 @@ def quiet_stderr():
 
 def one_line(error):
     """Return an exception as one line for standard error."""
-    text = ' '.join(str(error).split())
     # rcl adds where in its source it noticed.
-    return f'{PROGRAM}: {text.partition(", at /")[0] or repr(error)}'
+    text = ' '.join(str(error).split()).partition(', at /')[0] or repr(error)
+    if 'failed to initialize logging' in text:
+        text += '; set ROS_LOG_DIR to a folder that can be written'
+    if 'Sequence should be of same type' in text:
+        text += '; write all numbers of a list with a decimal point or all without'
+    return f'{PROGRAM}: {text}'

@@ -43,7 +43,8 @@ class ThrustLatch:
     """
     The last good wrench, until it is too old.
 
-    ``timeout`` s counts from reception on the steady clock, whatever the header says; 0 = hold.
+    ``timeout`` s counts from reception, whatever the header says, on the clock that the boat lives
+    by: half a second of slow motion is longer than that.  0 = hold.
     """
 
     def __init__(self, timeout):

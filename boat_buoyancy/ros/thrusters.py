@@ -26,12 +26,12 @@ class ThrusterInput:
     The subscriptions `thrusters/<name>/thrust` and `thrusters/<name>/pos`.
 
     Main arguments: ``node``; ``name`` of the thruster; ``session``, whose thruster it is;
-    ``guarded`` as of `Complaints`; ``clock`` () -> s, by which `Session.step` counts.
+    ``guarded`` as of `Complaints`.
     """
 
-    def __init__(self, node, name, session, guarded, clock):
+    def __init__(self, node, name, session, guarded):
         """Listen."""
-        self._name, self._session, self._clock = name, session, clock
+        self._name, self._session = name, session
         self._topic = f'thrusters/{name}'
         for part, act in (('thrust', self._on_thrust), ('pos', self._on_angle)):
             topic = f'{self._topic}/{part}'
@@ -44,7 +44,7 @@ class ThrusterInput:
         if abs(thrust) > limit:
             raise Refused('too large', f'{topic}: expected at most {limit:.3g} N, '
                           f'{MAX_THRUST:g} times the weight of this boat, got {thrust:g}')
-        self._session.thrusters.hold(self._name, thrust, self._clock())
+        self._session.thrusters.hold(self._name, thrust, self._session.age)
 
     def _on_angle(self, message):
         check_finite(f'{self._topic}/pos', [message.data])

@@ -95,6 +95,17 @@ class Boat:
         """Leave out what is derived; it is made again when it is asked for."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
+    def with_damping(self, damping: Damping) -> 'Boat':
+        """Return a boat that differs in its damping alone, and lies as this one does."""
+        boat = replace(self, damping=damping)
+        boat.__dict__['lying'] = self.lying
+        return boat
+
+    @cached_property
+    def lying(self) -> 'Boat':
+        """Return the one of all boats `with_damping` of each other whose rest is worked out."""
+        return self
+
     @property
     def weight(self) -> float:
         """Return m g in N."""

@@ -66,9 +66,14 @@ def rest_state(boat, yaw=0.0, x=0.0, y=0.0):
     return floating_state(boat, roll, pitch, yaw, x, y)
 
 
-@lru_cache(maxsize=64)
 def rest_attitude(boat):
     """Return roll and pitch in rad at which a boat lies at rest, or None where it finds none."""
+    # Damping has no part in it: worked out once for all boats that differ in nothing else.
+    return _rest_attitude(boat.lying)
+
+
+@lru_cache(maxsize=64)
+def _rest_attitude(boat):
     if not floats(boat):
         return 0.0, 0.0
     orientation, before, longest = (0.0, 0.0, 0.0, 1.0), np.zeros(2), LONGEST_TURN
@@ -110,7 +115,7 @@ def floating_state(boat, roll=0.0, pitch=0.0, yaw=0.0, x=0.0, y=0.0):
         *(np.asarray(value, float) for value in (roll, pitch, yaw, x, y)))
     orientation = np.stack(from_roll_pitch_yaw(roll, pitch, yaw), axis=-1)
     solve = _floating_height if floats(boat) else _sunk_height
-    heights = [solve(boat, tuple(turned)) for turned in orientation.reshape(-1, 4).tolist()]
+    heights = [solve(boat.lying, tuple(turned)) for turned in orientation.reshape(-1, 4).tolist()]
     placed = center_of_mass_state(boat, np.stack([x, y, np.zeros_like(x)], axis=-1), orientation)
     position = placed.position.copy()
     position[..., 2] = np.reshape(heights, roll.shape)

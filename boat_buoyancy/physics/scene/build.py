@@ -15,7 +15,8 @@
 """
 A boat, a sea and a start put together from parameters that are right one by one.
 
-``in_force`` is {name: value} of every parameter, None where it is to be derived.
+``in_force`` is {name: value} of the parameters that a part is made of (`MADE_OF`), None where one is
+to be derived.
 """
 
 from dataclasses import replace
@@ -23,7 +24,7 @@ import math
 
 import numpy as np
 
-from .parameters import WAVE_KINDS
+from .parameters import PARAMETERS, WAVE_KINDS
 from ..boat.boat import Boat, Damping
 from ..boat.hull import probe_hull
 from ..boat.mesh import read_mesh
@@ -43,16 +44,36 @@ PROBE_DAMPING_RATIO = 0.3
 LEAST_BALL = 0.1
 # The direction and the limits in N of a thruster that is given none.
 AHEAD, NO_LIMITS = (1.0, 0.0, 0.0), (-1e15, 1e15)
+# The parameters that each part is made of; the start is made of the hull, too. What is given to
+# the functions below is this and no more, so that a name that is missing here is seen at once.
+_PREFIXES = {'hull': ('boat.', 'hull.', 'probes.', 'gravity', 'water_density'),
+             'damping': ('damping.',), 'sea': ('sea.', 'gravity'), 'start': ('start.',)}
+MADE_OF = {part: frozenset(name for name in PARAMETERS if name.startswith(prefixes))
+           for part, prefixes in _PREFIXES.items()}
 
 
-def assembled_boat(in_force, sea):
+def assembled_boat(in_force, sea, like=None):
     """
     Return the `Boat` for a sea, with everything derived that was not given, and sentences.
+
+    ``like``, a `Boat` that differs in its damping at most, spares working out how it lies.
 
     Inertia: that of a solid body of the hull's shape, or for probes mass times their mean square
     distance from the centre of mass.  Probe damping: 0.3 of critical in heave, 2 sqrt(K m), K at
     rest.  The sentences are what is to be said of a mesh.
     """
+    damping = Damping(**{name: in_force[f'damping.{name}'] for name in (
+        'linear_retention', 'angular_retention', 'air_linear_retention',
+        'air_angular_retention', 'linear', 'quadratic')})
+    boat, said = _undamped_boat(in_force, sea) if like is None else (like.on(sea), ())
+    probe = in_force['damping.probe']
+    if probe is None:
+        probe = PROBE_DAMPING_RATIO * 2.0 * math.sqrt(_heave_stiffness(boat) * boat.mass)
+    return boat.with_damping(replace(damping, probe=probe)), said
+
+
+def _undamped_boat(in_force, sea):
+    """Return the boat without its damping, and what is to be said of its mesh."""
     mass, gravity, said = in_force['boat.mass'], in_force['gravity'], ()
     center_of_mass = np.array(in_force['boat.center_of_mass'])
     if in_force['probes.positions'] is not None:
@@ -69,15 +90,8 @@ def assembled_boat(in_force, sea):
         if in_force['hull.model'] == 'panels':
             hull = replace(hull, panel_size=in_force['hull.panel_size']).panelled(sea)
     inertia = in_force['boat.inertia']
-    damping = Damping(**{name: in_force[f'damping.{name}'] for name in (
-        'linear_retention', 'angular_retention', 'air_linear_retention',
-        'air_angular_retention', 'linear', 'quadratic')})
-    boat = Boat(mass, hull, estimate if inertia is None else inertia, damping, center_of_mass,
-                gravity)
-    probe = in_force['damping.probe']
-    if probe is None:
-        probe = PROBE_DAMPING_RATIO * 2.0 * math.sqrt(_heave_stiffness(boat) * mass)
-    return replace(boat, damping=replace(damping, probe=probe)), said
+    return Boat(mass, hull, estimate if inertia is None else inertia,
+                center_of_mass=center_of_mass, gravity=gravity), said
 
 
 def _probe_hull(in_force, weight):

@@ -19,7 +19,7 @@ import numpy as np
 from . import parameters
 from .wave_sampling import sampling_warnings
 from ..boat.hull import MAX_PANELS, PANELS_A_WAVE
-from ..hydrostatics.warnings import dry_thruster_warnings, flotation_warnings
+from ..hydrostatics.warnings import dry_thruster_warnings
 
 # Somewhat more than 2 pi, so that 6.2832 is one.
 FULL_TURN = 6.2833
@@ -77,8 +77,8 @@ def without_use(in_force):
 
 
 def remarks(boat, sea, thrusters, given, in_force):
-    """Return sentences about what was surely not meant, in a tuple; arguments as above."""
-    warnings = [*flotation_warnings(boat), *panel_warnings(boat, sea)]
+    """Return sentences about what was surely not meant, but for how the boat lies, in a tuple."""
+    warnings = [*panel_warnings(boat, sea)]
     drag = [name for name in ('damping.linear', 'damping.quadratic') if any(in_force[name])]
     retained = [name for name in ('damping.linear_retention', 'damping.angular_retention')
                 if min(in_force[name]) < 1.0]

@@ -22,12 +22,13 @@ import numpy as np
 
 from . import parameter_file, parameters
 from .build import (AHEAD, assembled_boat, assembled_sea, assembled_start, assembled_thrusters,
-                    NO_LIMITS, start_attitude)
+                    MADE_OF, NO_LIMITS, start_attitude)
 from .parameter_values import checked
 from .remarks import check_together, PROBES_ONLY, remarks, without_use
 from ..boat.boat import Boat
 from ..boat.state import PARTS, State
 from ..forces.thrusters import Propulsion
+from ..hydrostatics.warnings import flotation_warnings
 from ..sea.waves import Sea
 from ..step_size.plan import Plan, plan
 from ..stepping.fleet import Fleet
@@ -42,9 +43,10 @@ class Scene:
     Main arguments: ``boat``, ``sea``, ``start`` (`State` of the centre of mass); ``rate`` Hz,
     ``integrator`` and ``substeps`` as asked for, 0 = chosen.
     Other arguments: ``world_frame``, ``body_frame`` with its prefix, ``thrust_timeout`` s;
-    ``thrusters``, a tuple of `Thruster`; ``warnings``, sentences; ``given``, the parameters that
-    were given, {name: value}; ``values``, every parameter in force, what was derived filled in:
-    given again they make the same scene.
+    ``thrusters``, a tuple of `Thruster`; ``warnings``, sentences, those of ``flotation`` about
+    the hull at rest among them; ``given``, the parameters that were given, {name: value};
+    ``values``, every parameter in force, what was derived filled in: given again they make the
+    same scene.
     """
 
     boat: Boat
@@ -58,6 +60,7 @@ class Scene:
     thrust_timeout: float
     thrusters: tuple
     warnings: tuple
+    flotation: tuple
     given: dict
     values: dict
 
@@ -108,7 +111,7 @@ def load_scene(source: str | os.PathLike | Mapping) -> Scene:
     values = {name: value for name, value in parameter_file.read(source).items()
               if name.partition('.')[0] not in parameter_file.ROS_OWN}
     try:
-        return scene_from_values(values, os.path.dirname(source))
+        return scene_from_values(values, folder=os.path.dirname(source))
     except ValueError as error:
         raise ValueError(f'{source}: {error}') from None
 
@@ -150,10 +153,11 @@ def load_fleet(scenes: Iterable, *, threads: int | None = None) -> Fleet:
                  warnings=tuple(warnings.values()))
 
 
-def scene_from_values(values, folder='.'):
+def scene_from_values(values, before=None, folder='.'):
     """
     Return the `Scene` of parameters {dotted name: value}; None means not given.
 
+    Parts of the `Scene` ``before`` whose parameters are the same are taken over as they are.
     ``folder``, the one that paths start from.  ValueError as in `load_scene`.
     """
     values = {name: value for name, value in values.items() if value is not None}
@@ -162,20 +166,39 @@ def scene_from_values(values, folder='.'):
     if 'hull.mesh' in given:
         # Absolute, so that what is in force makes the same boat from anywhere.
         given['hull.mesh'] = os.path.abspath(os.path.join(folder, given['hull.mesh']))
-    in_force = {name: given.get(name, parameter.default)
-                for name, parameter in parameters.PARAMETERS.items()}
+    in_force = _in_force(given)
     check_together(given, in_force)
 
-    sea = assembled_sea(in_force)
-    boat, said = assembled_boat(in_force, sea)
+    kept = _kept(in_force, before)
+    parts = {part: {name: in_force[name] for name in names} for part, names in MADE_OF.items()}
+    sea = before.sea if 'sea' in kept else assembled_sea(parts['sea'])
+    boat, said = (before.boat, ()) if kept >= {'hull', 'damping', 'sea'} else assembled_boat(
+        {**parts['hull'], **parts['damping']}, sea, before.boat if 'hull' in kept else None)
+    start = before.start if kept >= {'hull', 'start'} else assembled_start(boat, parts['start'])
+    flotation = before.flotation if 'hull' in kept else (*said, *flotation_warnings(boat))
     thrusters = assembled_thrusters(in_force)
     return Scene(
-        boat, sea, assembled_start(boat, in_force), in_force['rate'], in_force['integrator'],
-        in_force['substeps'], in_force['world_frame'],
-        in_force['frame_prefix'] + in_force['body_frame'],
+        boat, sea, start, in_force['rate'], in_force['integrator'], in_force['substeps'],
+        in_force['world_frame'], in_force['frame_prefix'] + in_force['body_frame'],
         in_force['thrust.timeout'], thrusters,
-        (*said, *remarks(boat, sea, thrusters, given, in_force)), given,
+        (*flotation, *remarks(boat, sea, thrusters, given, in_force)), flotation, given,
         _complete(boat, given, in_force))
+
+
+def _in_force(given):
+    """Return {name: value} of every parameter, None where it is to be derived."""
+    return {name: given.get(name, parameter.default)
+            for name, parameter in parameters.PARAMETERS.items()}
+
+
+def _kept(in_force, before):
+    """Return the parts whose parameters are those of a scene before, or were derived to be."""
+    if before is None:
+        return set()
+    then, derived = _in_force(before.given), before.values
+    return {part for part, names in MADE_OF.items()
+            if all(in_force[name] == then[name] or in_force[name] == derived.get(name)
+                   for name in names)}
 
 
 def _flattened(values, prefix=''):

@@ -116,7 +116,11 @@ class Simulation(Stepped):
 
     @property
     def probe_forces(self) -> np.ndarray:
-        """Return (probes,) N, the lift of each probe, straight up, at the time of `state`."""
+        """
+        Return (probes,) N, the lift of each probe, straight up, at the time of `state`.
+
+        With panels, what the columns there would lift.
+        """
         return self._engine.forces(0)
 
     def acceleration(self, thrust: ArrayLike | None = None) -> tuple[tuple, tuple]:
