@@ -19,7 +19,8 @@ Start the WAM-V with the topics of the Virtual RobotX simulator (VRX).
 
 A controller that was written for VRX finds its boat: /wamv/thrusters/left/thrust and pos, the
 same of right, /wamv/sensors/imu/imu/data, /wamv/sensors/gps/gps/fix and
-/wamv/sensors/position/ground_truth_odometry. Takes the arguments of boat.launch.py.
+/wamv/sensors/position/ground_truth_odometry. There are no cameras, lidars and pingers, and
+/wamv/pose is a PoseStamped. Takes the arguments of boat.launch.py.
 """
 
 import os

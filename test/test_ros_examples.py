@@ -17,6 +17,7 @@
 import ast
 import importlib.util
 import math
+from pathlib import Path
 import signal
 import subprocess
 import sys
@@ -152,7 +153,6 @@ def test_the_parameters_of_robot_localization_fit_the_boat():
 
 def test_every_example_is_named_in_the_readme_and_installed():
     readme, setup = ((ROOT / name).read_text() for name in ('README.md', 'setup.py'))
-    assert "glob('examples/*')" in setup
-    for path in EXAMPLES.iterdir():
-        if path.is_file():
-            assert f'examples/{path.name}' in readme, path.name
+    for path in filter(Path.is_file, EXAMPLES.iterdir()):
+        assert f'examples/{path.name}' in readme, path.name
+        assert f"glob('examples/*{path.suffix}')" in setup

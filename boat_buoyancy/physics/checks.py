@@ -14,6 +14,8 @@
 
 """Checks of numbers given by a user: a ValueError says what, what was given, what is expected."""
 
+import math
+
 import numpy as np
 
 
@@ -33,7 +35,7 @@ def number(name, value, *, above=None, at_least=None, at_most=None):
         result = float(value)
     except (TypeError, ValueError, OverflowError):
         raise wrong from None
-    if (not np.isfinite(result) or (above is not None and not result > above)
+    if (not math.isfinite(result) or (above is not None and not result > above)
             or (at_least is not None and result < at_least)
             or (at_most is not None and result > at_most)):
         raise wrong
