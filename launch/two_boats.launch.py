@@ -19,7 +19,7 @@ Start two boats, red and blue, in one sea.
 
 Each boat has a namespace, so that topics are /red/pose and /blue/pose; both listen to one
 /wave_parameters. The sea is a function of the stamp time: both see the same water.
-`use_sim_time` and `rviz` are those of `boat.launch.py`, for each of the two.
+`use_sim_time`, `publish_tf` and `rviz` are those of `boat.launch.py`, for each of the two.
 """
 
 import os

@@ -200,7 +200,9 @@ def test_the_boat_of_vrx_has_its_topics_and_all_arguments_of_one_boat(load, star
     scene = load_scene({**more, **scene_of(boat).given})
     assert [thruster.name for thruster in scene.thrusters] == ['left', 'right']
     assert (scene.world_frame, scene.body_frame) == ('map', 'wamv/base_link')
-    assert scene.warnings == () and len(scene.sea.waves) == 16
+    # The sea of 5 cm has waves shorter than the hulls, and says so.
+    assert all('too far apart for the waves' in said for said in scene.warnings)
+    assert len(scene.sea.waves) == 16
     assert set(more) <= set(PARAMETERS) - set(load_scene(ROOT / 'config' / 'wam_v.yaml').given)
 
 
@@ -215,8 +217,8 @@ def test_two_boats_refuse_what_cannot_be_for_both(load, name):
 
 def test_two_boats_take_every_argument_of_one_or_refuse_it(load):
     one, two = load('boat'), load('two_boats')
-    passed_on = {'sea_state', 'use_sim_time', 'rviz'}
+    passed_on = {'sea_state', 'use_sim_time', 'publish_tf', 'rviz'}
     assert {*one.ARGUMENTS} == {*two.NOT_SHARED, *two.SET_FOR_EACH} | passed_on
     # Not set for a boat, so that the included file sees what the command line gave.
     _, include = two.boat('red', 'default', '0.0').arguments[0]
-    assert not {'use_sim_time', 'rviz'} & dict(include.options['launch_arguments']).keys()
+    assert not {'use_sim_time', 'publish_tf', 'rviz'} & dict(include.options['launch_arguments']).keys()

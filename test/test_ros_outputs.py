@@ -126,8 +126,10 @@ def test_markers_show_hull_probes_forces_and_water(probe):
     assert {name: len(markers) for name, markers in kinds.items()} == {
         'hull': 1, 'probes': 1, 'forces': 1, 'water': 1}
     hull, probes, forces, water = arrays[-1].markers
-    assert hull.type == Marker.CUBE
-    assert (hull.scale.x, hull.scale.y, hull.scale.z) == (4.0, 2.0, 1.0)
+    assert hull.type == Marker.TRIANGLE_LIST and len(hull.points) == 3 * 12
+    corners = np.array([[p.x, p.y, p.z] for p in hull.points])
+    np.testing.assert_array_equal(corners.max(axis=0), [2.0, 1.0, 0.5])
+    np.testing.assert_array_equal(corners.min(axis=0), [-2.0, -1.0, -0.5])
     assert len(probes.points) == len(probes.colors) == 4
     assert len(water.points) % 3 == 0 and len({p.z for p in water.points}) == 1
     # A line starts at its probe and goes straight up, a quarter of the length for its share.

@@ -57,7 +57,8 @@ def row_of(message):
 
 def record(values, periods, *, thrust=None, listeners=('imu', 'fix'), start=0):
     """Return the rows of imu (n, 11) and fix (n, 4) over some periods, and the session."""
-    recorder, session = Recorder(listeners), Session(load_scene({'thrust.timeout': 0.0, **values}), start)
+    recorder = Recorder(listeners)
+    session = Session(load_scene({'thrust.timeout': 0.0, **values}), start)
     outputs = Outputs(recorder, session.scene, sensors_of(recorder, session.scene))
     outputs.publish(session)
     if thrust is not None:

@@ -64,8 +64,8 @@ def typed(parameter):
         except ValueError:
             return value
         raise ValueError(f'{parameter.name}: expected one flat list of numbers, all with a '
-                         f"decimal point or all without, got the text {value!r}; type "
-                         f"'{numbers}'")
+                         f'decimal point or all without, got the text {value!r}; type '
+                         f'{str(numbers)!r}')
     return value
 
 
@@ -187,8 +187,9 @@ class LiveParameters:
             self._refusal = ' '.join(str(error).split()) or repr(error)
             # rclpy looks at types and ranges first: give it nothing to add to our reason.
             return [self._in_force(parameter) for parameter in requested]
+        # What was derived follows; how the boat would have started does not matter any more.
         names |= {name for name, value in scene.values.items()
-                  if value != self._scene.values.get(name)}
+                  if value != self._scene.values.get(name) and not PARAMETERS[name].read_only}
         return [ros_parameter(name, scene.values[name]) for name in sorted(names)]
 
     def _merged(self, requested):

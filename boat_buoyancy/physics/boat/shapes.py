@@ -25,24 +25,22 @@ from .surface import box_surface, joined
 SHAPES = ('box', 'twin', 'mesh')
 
 
-def box_shaped(size, bottom, probes, *, spacing=None, specific_weight, law='column'):
+def box_shaped(size, bottom, probes, *, spacing=None, middle=0.0, specific_weight,
+               law='column'):
     """
     Return a `Hull` of one box, or of two side by side, with its surface and its columns.
 
     Main arguments: ``size`` (3,) length, beam and depth m of each box; ``bottom`` z of the bottom
     in the body frame m; ``probes`` (along, across), how many columns in each.
     Other arguments: ``spacing`` m between the centre lines of two boxes, None for one;
-    ``specific_weight`` rho g in N/m^3; ``law`` as in `Hull`.
+    ``middle`` x of their middle m; ``specific_weight`` rho g in N/m^3; ``law`` as in `Hull`.
     """
     hull = box_hull(size, bottom, probes, specific_weight=specific_weight, law=law)
-    middle = bottom + size[2] / 2.0
-    if spacing is None:
-        return replace(hull, surface=box_surface(size, (0.0, 0.0, middle)))
-    sides = (-spacing / 2.0, spacing / 2.0)
+    sides = (0.0,) if spacing is None else (-spacing / 2.0, spacing / 2.0)
     return replace(
-        hull, positions=np.concatenate([hull.positions + [0.0, y, 0.0] for y in sides]),
-        max_force=np.tile(hull.max_force, 2), height=np.tile(hull.height, 2),
-        surface=joined([box_surface(size, (0.0, y, middle)) for y in sides]))
+        hull, positions=np.concatenate([hull.positions + [middle, y, 0.0] for y in sides]),
+        max_force=np.tile(hull.max_force, len(sides)), height=np.tile(hull.height, len(sides)),
+        surface=joined([box_surface(size, (middle, y, bottom + size[2] / 2.0)) for y in sides]))
 
 
 def mesh_shaped(surface, probes, volume, *, specific_weight, law='column'):

@@ -15,8 +15,8 @@
 """
 A boat, a sea and a start put together from parameters that are right one by one.
 
-``in_force`` is {name: value} of the parameters that a part is made of (`MADE_OF`), None where one is
-to be derived.
+``in_force`` is {name: value} of the parameters that a part is made of (`MADE_OF`), None where one
+is to be derived.
 """
 
 from dataclasses import replace
@@ -114,7 +114,7 @@ def _shaped(in_force, mass, gravity):
     size, bottom = in_force['hull.size'], in_force['hull.bottom']
     spacing = in_force['hull.spacing'] if in_force['hull.shape'] == 'twin' else None
     return box_shaped(size, -size[2] / 2 if bottom is None else bottom, probes, spacing=spacing,
-                      **water), ()
+                      middle=in_force['hull.middle'], **water), ()
 
 
 def _heave_stiffness(boat):

@@ -28,7 +28,7 @@ BREAKING = 1.0 / 7.0
 PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
 # The parameters that a shape of hull has no use for.
 USELESS = {'box': ('hull.spacing', 'hull.mesh', 'hull.scale'), 'twin': ('hull.mesh', 'hull.scale'),
-           'mesh': ('hull.size', 'hull.spacing', 'hull.bottom')}
+           'mesh': ('hull.size', 'hull.spacing', 'hull.bottom', 'hull.middle')}
 
 
 def check_together(given, in_force):

@@ -172,7 +172,7 @@ def scene_from_values(values, before=None, folder='.'):
     kept = _kept(in_force, before)
     parts = {part: {name: in_force[name] for name in names} for part, names in MADE_OF.items()}
     sea = before.sea if 'sea' in kept else assembled_sea(parts['sea'])
-    boat, said = (before.boat, ()) if kept >= {'hull', 'damping', 'sea'} else assembled_boat(
+    boat, said = (before.boat.on(sea), ()) if kept >= {'hull', 'damping'} else assembled_boat(
         {**parts['hull'], **parts['damping']}, sea, before.boat if 'hull' in kept else None)
     start = before.start if kept >= {'hull', 'start'} else assembled_start(boat, parts['start'])
     flotation = before.flotation if 'hull' in kept else (*said, *flotation_warnings(boat))
