@@ -22,7 +22,7 @@ setup(
     name=package_name,
     version='0.2.0',
     packages=find_packages(include=[package_name, package_name + '.*']),
-    package_data={package_name: ['py.typed']},
+    package_data={package_name: ['py.typed'], package_name + '.ros': ['fast_dds.xml']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
@@ -40,7 +40,7 @@ setup(
         'fast': ['numba'],
         'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy'],
     },
-    zip_safe=True,
+    zip_safe=False,
     maintainer='boat_buoyancy maintainers',
     maintainer_email='maintainers@users.noreply.h-seed-4fa897fd.example',
     description='Floats boats: a fixed-rate buoyancy node, and its physics as a library.',

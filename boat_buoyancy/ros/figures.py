@@ -28,12 +28,14 @@ class Figures:
     What was measured since the last look.
 
     ``rate`` Hz of steps; ``real_time_factor`` simulated over wall time; ``worst`` s, the longest
-    step with its publications; ``dropped`` steps given up.
+    step with its publications, and ``worst_publishing`` s, those alone; ``dropped`` steps given
+    up.
     """
 
     rate: float
     real_time_factor: float
     worst: float
+    worst_publishing: float
     dropped: int
 
 
@@ -48,13 +50,17 @@ class Meter:
 
     def _begin(self, now):
         self._since, self._steps, self._dropped = now, self.steps, self.dropped
-        self._worst = 0.0
+        self._worst = self._worst_publishing = self._stepping = self._publishing = 0.0
 
-    def step(self, seconds):
-        """Count one step that took so long."""
+    def step(self, stepping, publishing):
+        """Count one step, which took so many s, and its publications."""
         self.steps += 1
-        if seconds > self._worst:
-            self._worst = seconds
+        self._stepping += stepping
+        self._publishing += publishing
+        if stepping + publishing > self._worst:
+            self._worst = stepping + publishing
+        if publishing > self._worst_publishing:
+            self._worst_publishing = publishing
 
     def drop(self, steps):
         """Count steps given up."""
@@ -63,9 +69,25 @@ class Meter:
     def look(self, now):
         """Return the `Figures` since the last look."""
         rate = (self.steps - self._steps) / max(now - self._since, 1e-9)
-        figures = Figures(rate, rate / self._rate, self._worst, self.dropped - self._dropped)
+        figures = Figures(rate, rate / self._rate, self._worst, self._worst_publishing,
+                          self.dropped - self._dropped)
         self._begin(now)
         return figures
+
+    def slow(self, lost, pace):
+        """
+        Return 'publishing', 'stepping' or 'machine': what so many s that were ``lost`` went to.
+
+        One of the first two when once it took half of them, or when on average it takes half of
+        what there is for a step at a ``pace`` in Hz of wall time.
+        """
+        steps = max(1, self.steps - self._steps)
+        share = {'publishing': max(self._worst_publishing / lost,
+                                   self._publishing / steps * pace),
+                 'stepping': max((self._worst - self._worst_publishing) / lost,
+                                 self._stepping / steps * pace)}
+        most = max(share, key=share.get)
+        return most if share[most] > 0.5 else 'machine'
 
 
 def values(session, meter, figures, complaints):
@@ -78,6 +100,7 @@ def values(session, meter, figures, complaints):
         'steps': str(meter.steps),
         'steps dropped': str(meter.dropped),
         'worst step (ms)': f'{1e3 * figures.worst:.3f}',
+        'worst publishing (ms)': f'{1e3 * figures.worst_publishing:.3f}',
         'integrator': simulation.integrator,
         'substeps': str(simulation.substeps),
         'step': kind(),

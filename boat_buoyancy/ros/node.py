@@ -19,6 +19,7 @@ Everything happens in one thread, so callbacks act between two steps; `tick` run
 are due and is called as often as there is something to do.
 """
 
+import os
 import sys
 import time
 
@@ -27,7 +28,7 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
-from . import qos, startup
+from . import network, qos, startup
 from .complaints import Refused
 from .drive import ClockDrive, SteadyDrive, WallDrive
 from .ending import told_to_end
@@ -106,9 +107,15 @@ class BoatNode(ParameterNode):
     def tick(self):
         """Run the steps that are due and what is beside them; return the s until the next look."""
         now = time.monotonic()
+        halted = self._paused or self.session.fault
+        if not halted:
+            self._run_due(now)
+        # Afterwards, so that what is said of lost steps is of the second that lost them.
         self._look_around(now)
-        if self._paused or self.session.fault:
-            return IDLE
+        return IDLE if halted else min(self._drive.wait(), IDLE)
+
+    def _run_due(self, now):
+        """Run the steps that are due, or give them up."""
         turn = self._drive.turn()
         if turn.moved_to is not None:
             self.session.rebase(turn.moved_to)
@@ -120,7 +127,6 @@ class BoatNode(ParameterNode):
         for _ in range(turn.due):
             if not self._step() or time.monotonic() - now > BUSY:
                 break
-        return min(self._drive.wait(), IDLE)
 
     def _step(self):
         """Step once and publish what came of it; return True when it went well."""
@@ -129,8 +135,9 @@ class BoatNode(ParameterNode):
             self._reports.stopped()
             return False
         self._drive.ran()
+        stepped = time.monotonic()
         self._publish()
-        self._reports.stepped(time.monotonic() - began)
+        self._reports.stepped(stepped - began, time.monotonic() - stepped)
         return True
 
     def _publish(self):
@@ -226,6 +233,7 @@ def _run(arguments, told):
         if startup.check_arguments(given):
             print(startup.USAGE)
             return 0
+        network.never_wait(os.environ)
         with startup.quiet_stderr():
             rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
         node = BoatNode()

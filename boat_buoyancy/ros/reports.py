@@ -20,11 +20,20 @@ It looks and speaks; it changes nothing.
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from . import figures, qos
+from . import figures, network, qos
 from .complaints import Complaints
 from .messages import Frame, set_stamp
 
 DIAGNOSTICS_PERIOD = 1.0  # s
+# What steps are lost to, and what to do.
+SLOW = {
+    'stepping': 'Stepping is slow: lower rate or substeps, use fewer probes or waves, or a faster '
+                'machine',
+    'publishing': 'Publishing is slow, as to a host that does not answer any more: give UDPv4 '
+                  '<non_blocking_send>true</non_blocking_send> in the Fast DDS profile, as '
+                  f'{network.PROFILE.name} of this package has it',
+    'machine': 'Neither stepping nor publishing is slow: the machine is too busy, stood still, or '
+               'the clock went ahead'}
 
 
 class Reports:
@@ -66,10 +75,10 @@ class Reports:
                 self._log.warning(sentence)
         self._said = set(sentences)
 
-    def stepped(self, seconds):
-        """Count a step that took so long, with its publications."""
-        self._meter.step(seconds)
-        self._status_meter.step(seconds)
+    def stepped(self, stepping, publishing):
+        """Count a step that took so many s, and its publications."""
+        self._meter.step(stepping, publishing)
+        self._status_meter.step(stepping, publishing)
 
     def stopped(self):
         """Say that the motion has a fault."""
@@ -81,12 +90,14 @@ class Reports:
         self._unsaid_drops += steps
         if self._drops_said is not None and now - self._drops_said < Complaints.PERIOD:
             return
-        seconds = self._unsaid_drops / self._session.simulation.rate
+        pace = self._session.simulation.rate
+        seconds = self._unsaid_drops / pace
         lost = ('the boat stood still in them, stamps and sea went on' if lost_to_boat
                 else 'simulated time went slower than asked')
+        pace *= self._session.scene.values['time_factor'] or 1.0
+        slow = SLOW[self._meter.slow(steps / pace, pace)]
         self._log.warning(
-            f'fell behind: {self._unsaid_drops} steps ({seconds:.2f} s) dropped, {lost}. If it '
-            'goes on, lower rate or substeps, use fewer probes or waves, or a faster machine')
+            f'fell behind: {self._unsaid_drops} steps ({seconds:.2f} s) dropped, {lost}. {slow}')
         self._drops_said, self._unsaid_drops = now, 0
 
     def look(self, paused, now):

@@ -133,7 +133,8 @@ class Session:
         waves = (scene.sea.waves if WAVES.intersection(names)
                  or not np.array_equal(scene.sea.waves, before.sea.waves) else self.sea.waves)
         if not np.array_equal(waves, self.sea.waves) or any(
-                scene.values[name] != before.values[name] for name in ('sea.current', 'sea.depth')):
+                scene.values[name] != before.values[name]
+                for name in ('sea.current', 'sea.depth')):
             self.sea = replace(scene.sea, waves=waves)
             self._fade_to_given()
 
