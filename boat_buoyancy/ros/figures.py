@@ -16,6 +16,9 @@
 
 from dataclasses import dataclass
 import math
+import zlib
+
+import numpy as np
 
 from ..physics.compiled import kind
 from ..physics.hydrostatics.natural_modes import modes
@@ -94,6 +97,7 @@ def values(session, meter, figures, complaints):
     """Return {key: text} of all that a status shows."""
     simulation, age = session.simulation, session.thrust.age(session.age)
     shown = {
+        'sea': fingerprint(session.sea),
         'rate asked (Hz)': f'{simulation.rate:g}',
         'rate held (Hz)': f'{figures.rate:.2f}',
         'real-time factor': f'{figures.real_time_factor:.3f}',
@@ -105,10 +109,17 @@ def values(session, meter, figures, complaints):
         'substeps': str(simulation.substeps),
         'step': kind(),
         'thrust age (s)': 'none' if age is None else f'{age:.2f}',
-        'messages refused': str(sum(complaints.counts.values()))}
+        'messages refused': str(complaints.total)}
     shown.update((f'refused, {key}', str(count))
                  for key, count in sorted(complaints.counts.items()))
     return shown
+
+
+def fingerprint(sea):
+    """Return eight digits that are the same for the same water, and hardly ever for other."""
+    numbers = np.concatenate([sea.waves.ravel(), sea.current, [sea.depth, sea.gravity]])
+    # Without the minus of a zero.
+    return f'{zlib.crc32((numbers + 0.0).tobytes()):08x}'
 
 
 def loaded(scene, simulation):
@@ -140,8 +151,19 @@ def status_line(frame, time, real_time_factor, paused):
     qx, qy, qz, qw = frame.orientation
     roll = math.atan2(2.0 * (qw * qx + qy * qz), 1.0 - 2.0 * (qx * qx + qy * qy))
     pitch = math.asin(max(-1.0, min(1.0, 2.0 * (qw * qy - qz * qx))))
-    # Without the minus of what rounds to nothing.
-    roll, pitch = (round(math.degrees(angle), 1) + 0.0 for angle in (roll, pitch))
     pace = 'paused' if paused else f'real-time factor {real_time_factor:.2f}'
-    return (f't {time:.1f} s, x {x:.2f} y {y:.2f} z {z:.3f} m, roll {roll:.1f} pitch {pitch:.1f} '
-            f'deg, speed {math.hypot(*frame.body_velocity):.2f} m/s, {pace}')
+    return (f't {time:.1f} s, x {x:.2f} y {y:.2f} z {z:.3f} m, roll {_rounded(roll)} '
+            f'pitch {_rounded(pitch)} deg, {heading_and_speed(frame)}, {pace}')
+
+
+def heading_and_speed(frame):
+    """Return in words where a boat heads, counter-clockwise from x, and how fast it goes there."""
+    qx, qy, qz, qw = frame.orientation
+    heading = math.atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz))
+    ahead = round(frame.body_velocity[0], 2) + 0.0
+    return f'heading {_rounded(heading)} deg, {ahead:.2f} m/s ahead'
+
+
+def _rounded(angle):
+    """Return an angle in degrees, without the minus of what rounds to nothing."""
+    return f'{round(math.degrees(angle), 1) + 0.0:.1f}'

@@ -29,7 +29,7 @@ from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
 from . import network, qos, startup
-from .complaints import Refused
+from .complaints import Refused, Throttle
 from .drive import ClockDrive, SteadyDrive, WallDrive
 from .ending import told_to_end
 from .initial_pose import read_place
@@ -69,6 +69,8 @@ class BoatNode(ParameterNode):
         self.declare(scene)
         LiveParameters(self, given, scene, self._change)
         self._paused = False
+        # rclpy wants one severity for each line of code that it is called from.
+        self._news = Throttle(lambda sentence: self.get_logger().info(sentence))
         now = time.monotonic()
         self._reports = Reports(self, self.session, now)
         self._reports.loaded()
@@ -159,11 +161,13 @@ class BoatNode(ParameterNode):
     def _on_thrust(self, message):
         wrench, in_world = read_wrench(message, self.session.scene)
         self.session.thrust.hold(wrench, in_world, self.session.age)
+        self._reports.rivals.heard(wrench, time.monotonic())
 
     def _on_waves(self, rows):
         if self.session.set_waves(rows):
             self._waves_output.publish(self.session.sea)
-            self.get_logger().info(f'waves: {len(self.session.sea.waves)} in force')
+            self._news.say('waves', f'waves: {len(self.session.sea.waves)} in force',
+                           time.monotonic())
             for sentence in sea_warnings(self.session.sea):
                 self.get_logger().warning(sentence)
 
@@ -173,7 +177,8 @@ class BoatNode(ParameterNode):
             raise Refused('stopped', 'initialpose: the motion was stopped by a fault; expected a '
                           'call of ~/reset first')
         self.session.place(x, y, yaw)
-        self.get_logger().info(f'boat put at x {x:.2f} y {y:.2f} m, floating at its draft')
+        self._news.say('place', f'boat put at x {x:.2f} y {y:.2f} m, floating at its draft',
+                       time.monotonic())
         self._show_paused()
 
     def _show_paused(self):

@@ -64,8 +64,8 @@ def typed(parameter):
         except ValueError:
             return value
         raise ValueError(f'{parameter.name}: expected one flat list of numbers, all with a '
-                         f"decimal point or all without, got the text {value!r}; type "
-                         f"'{numbers}'")
+                         f'decimal point or all without, got the text {value!r}; type '
+                         f'{str(numbers)!r}')
     return value
 
 

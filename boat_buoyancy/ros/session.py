@@ -33,6 +33,7 @@ from ..physics.stepping.simulation import SimulationError
 # Parameters that ask for waves; the rest of sea.* only shapes them.
 WAVES = frozenset(name for kind in WAVE_KINDS for name in kind)
 
+
 class Session:
     """
     A scene under way.
