@@ -48,6 +48,7 @@ setup(
     entry_points={
         'console_scripts': [
             'buoyancy_node = boat_buoyancy.ros.main:main',
+            'same_sea = boat_buoyancy.ros.same_sea:main',
             'buoyancy_report = boat_buoyancy.tools.report:main',
             'buoyancy_simulate = boat_buoyancy.tools.simulate:main',
             'buoyancy_chart = boat_buoyancy.tools.chart.main:main',

@@ -25,6 +25,9 @@ from ..physics.hydrostatics.natural_modes import modes
 from ..physics.hydrostatics.rest import draft, floats, rest_state
 
 
+SEA = 'sea'  # the key of the fingerprint
+
+
 @dataclass(frozen=True)
 class Figures:
     """
@@ -97,7 +100,7 @@ def values(session, meter, figures, complaints):
     """Return {key: text} of all that a status shows."""
     simulation, age = session.simulation, session.thrust.age(session.age)
     shown = {
-        'sea': fingerprint(session.sea),
+        SEA: fingerprint(session.sea),
         'rate asked (Hz)': f'{simulation.rate:g}',
         'rate held (Hz)': f'{figures.rate:.2f}',
         'real-time factor': f'{figures.real_time_factor:.3f}',

@@ -20,6 +20,7 @@ then a send waits, for up to three seconds, and with it every publication to any
 be told never to wait, what is reliable is sent again, and to have room for those that do answer.
 """
 
+import os
 from pathlib import Path
 
 PROFILE = Path(__file__).with_name('fast_dds.xml')
@@ -31,11 +32,11 @@ CHOICES = (VARIABLE, 'FASTDDS_DEFAULT_PROFILES_FILE', 'FASTDDS_BUILTIN_TRANSPORT
 LOCAL_PROFILE = 'DEFAULT_FASTRTPS_PROFILES.xml'
 
 
-def never_wait(environment):
+def never_wait(environment=os.environ):
     """
     Let Fast DDS read our profile, unless the user has chosen otherwise.
 
-    ``environment`` is os.environ, before rclpy is initialised.  On a machine that talks to itself
+    ``environment`` is read when rclpy is initialised.  On a machine that talks to itself
     alone nothing waits, and rmw adds transports of its own.
     """
     if not (any(environment.get(name) for name in CHOICES)

@@ -19,7 +19,6 @@ Everything happens in one thread, so callbacks act between two steps; `tick` run
 are due and is called as often as there is something to do.
 """
 
-import os
 import sys
 import time
 
@@ -238,7 +237,7 @@ def _run(arguments, told):
         if startup.check_arguments(given):
             print(startup.USAGE)
             return 0
-        network.never_wait(os.environ)
+        network.never_wait()
         with startup.quiet_stderr():
             rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
         node = BoatNode()
