@@ -22,7 +22,7 @@ setup(
     name=package_name,
     version='0.2.0',
     packages=find_packages(include=[package_name, package_name + '.*']),
-    package_data={package_name: ['py.typed']},
+    package_data={package_name: ['py.typed'], package_name + '.ros': ['fast_dds.xml']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
@@ -45,7 +45,7 @@ setup(
         'mesh': ['trimesh'],
         'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy', 'trimesh'],
     },
-    zip_safe=True,
+    zip_safe=False,
     maintainer='boat_buoyancy maintainers',
     maintainer_email='maintainers@users.noreply.h-seed-4fa897fd.example',
     description='Floats boats: a fixed-rate buoyancy node, and its physics as a library.',
@@ -53,6 +53,7 @@ setup(
     entry_points={
         'console_scripts': [
             'buoyancy_node = boat_buoyancy.ros.main:main',
+            'same_sea = boat_buoyancy.ros.same_sea:main',
             'buoyancy_report = boat_buoyancy.tools.report:main',
             'buoyancy_simulate = boat_buoyancy.tools.simulate:main',
             'buoyancy_chart = boat_buoyancy.tools.chart.main:main',

@@ -18,7 +18,8 @@ Start two boats, red and blue, in one sea.
     ros2 launch boat_buoyancy two_boats.launch.py sea_state:=2
 
 Each boat has a namespace, so that topics are /red/pose and /blue/pose; both listen to one
-/wave_parameters. The sea is a function of the stamp time: both see the same water.
+/wave_parameters. The sea is a function of the stamp time: both see the same water, and `same_sea`
+warns when they do not.
 `use_sim_time`, `publish_tf` and `rviz` are those of `boat.launch.py`, for each of the two.
 """
 
@@ -30,7 +31,7 @@ from launch.actions import (DeclareLaunchArgument, GroupAction, IncludeLaunchDes
                             OpaqueFunction)
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration
-from launch_ros.actions import SetRemap
+from launch_ros.actions import Node, SetRemap
 
 LAUNCH = os.path.join(get_package_share_directory('boat_buoyancy'), 'launch')
 
@@ -65,4 +66,6 @@ def generate_launch_description():
                               description='WMO sea state of both, 0 to 9; 0 = flat water.'),
         OpaqueFunction(function=check),
         boat('red', 'v4_tuned', '0.0'),
-        boat('blue', 'default', '10.0')])
+        boat('blue', 'default', '10.0'),
+        Node(package='boat_buoyancy', executable='same_sea', output='screen',
+             arguments=['/red/boat_buoyancy', '/blue/boat_buoyancy'])])

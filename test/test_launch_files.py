@@ -180,6 +180,9 @@ def test_two_boats_are_apart_and_in_one_sea(load, start):
     scenes = [scene_of(boat) for boat in boats]
     assert len({boat.namespace for boat in boats}) == len(boats) == 2
     assert scenes[0].sea.waves.tolist() == scenes[1].sea.waves.tolist() != []
+    watch, = (action for action in load('two_boats').generate_launch_description().arguments[0]
+              if action.options.get('executable') == 'same_sea')
+    assert watch.options['arguments'] == [f'/{boat.namespace}/boat_buoyancy' for boat in boats]
     apart = scenes[1].start.position - scenes[0].start.position
     assert abs(apart[1]) > 5.0
 

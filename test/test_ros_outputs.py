@@ -14,8 +14,12 @@
 
 """The node's outputs, as another process receives them."""
 
+import math
 
 from boat_buoyancy.physics import load_scene
+from boat_buoyancy.ros.figures import heading_and_speed, status_line
+from boat_buoyancy.ros.messages import Frame
+from boat_buoyancy.ros.session import Session
 from diagnostic_msgs.msg import DiagnosticArray
 import numpy as np
 import pytest
@@ -178,3 +182,15 @@ def test_the_log_says_what_was_loaded_and_how_it_goes(boat):
     assert f'{scene.boat.mass:g} kg' in line and 'leapfrog' in line and 'draft 0.244 m' in line
     status = boat.wait_for_log('real-time factor')
     assert 'z 0.256 m' in status and 'roll 0.0 pitch 0.0 deg' in status
+    for said in (line, status):
+        assert 'heading 0.0 deg, 0.00 m/s ahead' in said
+
+
+def test_heading_and_speed_ahead_are_those_of_the_body():
+    scene = load_scene({'start.orientation': [0.0, 0.0, math.pi / 2],
+                        'start.velocity': [1.5, 0.7, 0.0]})
+    frame = Frame(Session(scene))
+    # Counter-clockwise from x; what it drifts to port is no way ahead.
+    assert heading_and_speed(frame) == 'heading 90.0 deg, 1.50 m/s ahead'
+    line = status_line(frame, 12.34, 1.0, False)
+    assert line.startswith('t 12.3 s, x 0.00 y 0.00 z 0.256 m, roll 0.0 pitch 0.0 deg, heading 90')

@@ -20,12 +20,13 @@ import re
 
 from boat_buoyancy.physics.sea.waves import Sea
 from boat_buoyancy.ros.complaints import Refused
-from boat_buoyancy.ros.wave_messages import Duplicates, read_waves
+from boat_buoyancy.ros.wave_messages import Duplicates, read_waves, unpack_waves
 import numpy as np
 import pytest
+from rclpy.serialization import serialize_message
 from ros_probe import BoatProcess, by_stamp, LATCHED, Probe
 from sensor_msgs.msg import PointCloud2
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Float64MultiArray, MultiArrayDimension, MultiArrayLayout
 
 
 @pytest.fixture(scope='module')
@@ -69,6 +70,33 @@ def test_bad_waves_are_refused_with_the_reason(rows, kind, said):
         read_waves(array('d', rows))
     assert raised.value.kind == kind
     assert str(raised.value).startswith('wave_parameters: ')
+
+
+def laid_out(count, sizes, strides=(), offset=0):
+    """Return a serialised message of so many numbers with a layout."""
+    strides = strides or [0] * len(sizes)
+    return serialize_message(Float64MultiArray(
+        data=[0.1, 4.0, 0.0, 0.0] * (count // 4), layout=MultiArrayLayout(
+            dim=[MultiArrayDimension(size=size, stride=stride)
+                 for size, stride in zip(sizes, strides)], data_offset=offset)))
+
+
+@pytest.mark.parametrize('layout', [([],), ([8],), ([2, 4],), ([2, 4], [8, 4]), ([8], [8])])
+def test_a_layout_of_rows_is_taken(layout):
+    assert len(unpack_waves(laid_out(8, *layout))) == 8
+
+
+@pytest.mark.parametrize('layout', [
+    ([4, 2],), ([2, 4], [4, 8]), ([2, 4], [8, 2]), ([2, 4], [8, 4], 1), ([2, 2, 2],), ([3, 4],)])
+def test_a_layout_of_anything_but_rows_is_refused(layout):
+    with pytest.raises(Refused, match='expected rows of four one after the other, .* got sizes'):
+        unpack_waves(laid_out(8, *layout))
+
+
+def test_the_sea_in_force_can_be_sent_back_as_it_comes(probe, ask):
+    ask([0.05, 4.0, 0.0, 0.0, 0.1, 3.0, 0.0, 0.0])
+    probe.until(lambda: len(probe.waves[-1].data) == 8)
+    assert len(unpack_waves(serialize_message(probe.waves[-1]))) == 8
 
 
 def test_bad_waves_are_refused_whole_and_the_sea_stays(boat, probe, ask):
@@ -127,7 +155,9 @@ def test_a_latched_publisher_that_came_first_is_heard():
                 publisher.publish(Float64MultiArray(data=[*rows[:3], phase]))
             one.until(lambda: waves[-1].data.tolist() == [*rows[:3], 0.3])
             one.spin(0.3)
-            assert boat.log.count('waves: 1 in force') == 4
+            assert [m.data[3] for m in waves if len(m.data)] == [0.5, 0.1, 0.2, 0.3]
+            # What comes one after the other is not said each time.
+            assert boat.log.count('waves: 1 in force') == 1
             assert 'incompatible' not in boat.log
 
 

@@ -42,9 +42,9 @@ def check_frame(name, frame, *expected):
                       f'{" or ".join(map(repr, expected))}, got {shown!r}')
 
 
-class Complaints:
+class Throttle:
     """
-    Counts refused messages by reason, and lets through one sentence per reason and period.
+    Lets through one sentence per subject and period.
 
     ``say`` is called with the sentence.
     """
@@ -52,9 +52,36 @@ class Complaints:
     PERIOD = 5.0  # s
 
     def __init__(self, say):
-        """Count from zero."""
+        """Have said nothing."""
         self._say, self._last, self._unsaid = say, {}, Counter()
-        self.counts = Counter()
+
+    def say(self, subject, sentence, now):
+        """Say a sentence at ``now`` s, unless one on the same subject was said just before."""
+        if now - self._last.get(subject, -math.inf) < self.PERIOD:
+            self._unsaid[subject] += 1
+            return
+        more = self._unsaid.pop(subject, 0)
+        self._last[subject] = now
+        self._say(sentence + (f' ({more} more like it before)' if more else ''))
+
+
+class Complaints:
+    """
+    Counts refused messages by reason, and says a sentence per reason now and then.
+
+    ``say`` is called with the sentence.  Public: ``counts`` by topic and reason, and ``last``,
+    the sentence for the last that was refused.
+    """
+
+    def __init__(self, say):
+        """Count from zero."""
+        self._throttle = Throttle(say)
+        self.counts, self.last = Counter(), ''
+
+    @property
+    def total(self):
+        """Return how many messages were refused."""
+        return sum(self.counts.values())
 
     def guarded(self, topic, act):
         """Return a callback that never raises: what ``act`` (message) refuses is counted."""
@@ -72,9 +99,5 @@ class Complaints:
         """Count a `Refused` message and say so, unless the same was said just before."""
         key = f'{topic}: {refused.kind}'
         self.counts[key] += 1
-        if now - self._last.get(key, -math.inf) < self.PERIOD:
-            self._unsaid[key] += 1
-            return
-        more = self._unsaid.pop(key, 0)
-        self._last[key] = now
-        self._say(f'{refused}' + (f' ({more} more like it before)' if more else ''))
+        self.last = str(refused)
+        self._throttle.say(key, self.last, now)

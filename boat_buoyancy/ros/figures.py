@@ -17,6 +17,7 @@
 from dataclasses import dataclass
 import math
 import os
+import zlib
 
 import numpy as np
 
@@ -25,18 +26,23 @@ from ..physics.hydrostatics.natural_modes import modes
 from ..physics.hydrostatics.rest import draft, floats, rest_attitude, rest_state
 
 
+SEA = 'sea'  # the key of the fingerprint
+
+
 @dataclass(frozen=True)
 class Figures:
     """
     What was measured since the last look.
 
     ``rate`` Hz of steps; ``real_time_factor`` simulated over wall time; ``worst`` s, the longest
-    step with its publications; ``dropped`` steps given up.
+    step with its publications, and ``worst_publishing`` s, those alone; ``dropped`` steps given
+    up.
     """
 
     rate: float
     real_time_factor: float
     worst: float
+    worst_publishing: float
     dropped: int
 
 
@@ -51,13 +57,17 @@ class Meter:
 
     def _begin(self, now):
         self._since, self._steps, self._dropped = now, self.steps, self.dropped
-        self._worst = 0.0
+        self._worst = self._worst_publishing = self._stepping = self._publishing = 0.0
 
-    def step(self, seconds):
-        """Count one step that took so long."""
+    def step(self, stepping, publishing):
+        """Count one step, which took so many s, and its publications."""
         self.steps += 1
-        if seconds > self._worst:
-            self._worst = seconds
+        self._stepping += stepping
+        self._publishing += publishing
+        if stepping + publishing > self._worst:
+            self._worst = stepping + publishing
+        if publishing > self._worst_publishing:
+            self._worst_publishing = publishing
 
     def drop(self, steps):
         """Count steps given up."""
@@ -66,31 +76,56 @@ class Meter:
     def look(self, now):
         """Return the `Figures` since the last look."""
         rate = (self.steps - self._steps) / max(now - self._since, 1e-9)
-        figures = Figures(rate, rate / self._rate, self._worst, self.dropped - self._dropped)
+        figures = Figures(rate, rate / self._rate, self._worst, self._worst_publishing,
+                          self.dropped - self._dropped)
         self._begin(now)
         return figures
+
+    def slow(self, lost, pace):
+        """
+        Return 'publishing', 'stepping' or 'machine': what so many s that were ``lost`` went to.
+
+        One of the first two when once it took half of them, or when on average it takes half of
+        what there is for a step at a ``pace`` in Hz of wall time.
+        """
+        steps = max(1, self.steps - self._steps)
+        share = {'publishing': max(self._worst_publishing / lost,
+                                   self._publishing / steps * pace),
+                 'stepping': max((self._worst - self._worst_publishing) / lost,
+                                 self._stepping / steps * pace)}
+        most = max(share, key=share.get)
+        return most if share[most] > 0.5 else 'machine'
 
 
 def values(session, meter, figures, complaints):
     """Return {key: text} of all that a status shows."""
     simulation, age = session.simulation, session.thrust.age(session.age)
     shown = {
+        SEA: fingerprint(session.sea),
         'rate asked (Hz)': f'{simulation.rate:g}',
         'rate held (Hz)': f'{figures.rate:.2f}',
         'real-time factor': f'{figures.real_time_factor:.3f}',
         'steps': str(meter.steps),
         'steps dropped': str(meter.dropped),
         'worst step (ms)': f'{1e3 * figures.worst:.3f}',
+        'worst publishing (ms)': f'{1e3 * figures.worst_publishing:.3f}',
         'integrator': simulation.integrator,
         'substeps': str(simulation.substeps),
         'step': kind(),
         'thrust age (s)': 'none' if age is None else f'{age:.2f}',
-        'messages refused': str(sum(complaints.counts.values()))}
+        'messages refused': str(complaints.total)}
     forces = session.propulsion.forces
     shown.update((f'thruster {name} (N)', f'{force:.4g}') for name, force in forces.items())
     shown.update((f'refused, {key}', str(count))
                  for key, count in sorted(complaints.counts.items()))
     return shown
+
+
+def fingerprint(sea):
+    """Return eight digits that are the same for the same water, and hardly ever for other."""
+    numbers = np.concatenate([sea.waves.ravel(), sea.current, [sea.depth, sea.gravity]])
+    # Without the minus of a zero.
+    return f'{zlib.crc32((numbers + 0.0).tobytes()):08x}'
 
 
 def loaded(scene, simulation):
@@ -142,8 +177,19 @@ def status_line(frame, time, real_time_factor, paused):
     qx, qy, qz, qw = frame.orientation
     roll = math.atan2(2.0 * (qw * qx + qy * qz), 1.0 - 2.0 * (qx * qx + qy * qy))
     pitch = math.asin(max(-1.0, min(1.0, 2.0 * (qw * qy - qz * qx))))
-    # Without the minus of what rounds to nothing.
-    roll, pitch = (round(math.degrees(angle), 1) + 0.0 for angle in (roll, pitch))
     pace = 'paused' if paused else f'real-time factor {real_time_factor:.2f}'
-    return (f't {time:.1f} s, x {x:.2f} y {y:.2f} z {z:.3f} m, roll {roll:.1f} pitch {pitch:.1f} '
-            f'deg, speed {math.hypot(*frame.body_velocity):.2f} m/s, {pace}')
+    return (f't {time:.1f} s, x {x:.2f} y {y:.2f} z {z:.3f} m, roll {_rounded(roll)} '
+            f'pitch {_rounded(pitch)} deg, {heading_and_speed(frame)}, {pace}')
+
+
+def heading_and_speed(frame):
+    """Return in words where a boat heads, counter-clockwise from x, and how fast it goes there."""
+    qx, qy, qz, qw = frame.orientation
+    heading = math.atan2(2.0 * (qw * qz + qx * qy), 1.0 - 2.0 * (qy * qy + qz * qz))
+    ahead = round(frame.body_velocity[0], 2) + 0.0
+    return f'heading {_rounded(heading)} deg, {ahead:.2f} m/s ahead'
+
+
+def _rounded(angle):
+    """Return an angle in degrees, without the minus of what rounds to nothing."""
+    return f'{round(math.degrees(angle), 1) + 0.0:.1f}'

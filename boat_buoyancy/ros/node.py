@@ -28,8 +28,8 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
-from . import qos, startup, transforms
-from .complaints import Refused
+from . import network, qos, startup, transforms
+from .complaints import Refused, Throttle
 from .drive import ClockDrive, SteadyDrive, WallDrive
 from .ending import told_to_end
 from .initial_pose import read_place
@@ -78,6 +78,8 @@ class BoatNode(ParameterNode):
         self.declare(scene)
         LiveParameters(self, given, scene, self._change)
         self._paused = False
+        # rclpy wants one severity for each line of code that it is called from.
+        self._news = Throttle(lambda sentence: self.get_logger().info(sentence))
         now = time.monotonic()
         self._reports = Reports(self, self.session, now)
         self._reports.loaded()
@@ -120,9 +122,15 @@ class BoatNode(ParameterNode):
     def tick(self):
         """Run the steps that are due and what is beside them; return the s until the next look."""
         now = time.monotonic()
+        halted = self._paused or self.session.fault
+        if not halted:
+            self._run_due(now)
+        # Afterwards, so that what is said of lost steps is of the second that lost them.
         self._look_around(now)
-        if self._paused or self.session.fault:
-            return IDLE
+        return IDLE if halted else min(self._drive.wait(), IDLE)
+
+    def _run_due(self, now):
+        """Run the steps that are due, or give them up."""
         turn = self._drive.turn()
         if turn.moved_to is not None:
             self.session.rebase(turn.moved_to)
@@ -134,7 +142,6 @@ class BoatNode(ParameterNode):
         for _ in range(turn.due):
             if not self._step() or time.monotonic() - now > BUSY:
                 break
-        return min(self._drive.wait(), IDLE)
 
     def _step(self):
         """Step once and publish what came of it; return True when it went well."""
@@ -143,8 +150,9 @@ class BoatNode(ParameterNode):
             self._reports.stopped()
             return False
         self._drive.ran()
+        stepped = time.monotonic()
         self._publish()
-        self._reports.stepped(time.monotonic() - began)
+        self._reports.stepped(stepped - began, time.monotonic() - stepped)
         return True
 
     def _publish(self):
@@ -166,11 +174,13 @@ class BoatNode(ParameterNode):
     def _on_thrust(self, message):
         wrench, in_world = read_wrench(message, self.session.scene)
         self.session.thrust.hold(wrench, in_world, self.session.age)
+        self._reports.rivals.heard(wrench, time.monotonic())
 
     def _on_waves(self, rows):
         if self.session.set_waves(rows):
             self._waves_output.publish(self.session.sea)
-            self.get_logger().info(f'waves: {len(self.session.sea.waves)} in force')
+            self._news.say('waves', f'waves: {len(self.session.sea.waves)} in force',
+                           time.monotonic())
             for sentence in sea_warnings(self.session.sea):
                 self.get_logger().warning(sentence)
 
@@ -180,7 +190,8 @@ class BoatNode(ParameterNode):
             raise Refused('stopped', 'initialpose: the motion was stopped by a fault; expected a '
                           'call of ~/reset first')
         self.session.place(x, y, yaw)
-        self.get_logger().info(f'boat put at x {x:.2f} y {y:.2f} m, floating at its draft')
+        self._news.say('place', f'boat put at x {x:.2f} y {y:.2f} m, floating at its draft',
+                       time.monotonic())
         self._show_paused()
 
     def _show_paused(self):
@@ -240,6 +251,7 @@ def _run(arguments, told):
         if startup.check_arguments(given):
             print(startup.USAGE)
             return 0
+        network.never_wait()
         with startup.quiet_stderr():
             rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
         node = BoatNode()

@@ -20,11 +20,21 @@ It looks and speaks; it changes nothing.
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from . import figures, qos
-from .complaints import Complaints
+from . import figures, network, qos
+from .complaints import Complaints, Throttle
 from .messages import Frame, set_stamp
+from .neighbours import Neighbours, Rivals
 
 DIAGNOSTICS_PERIOD = 1.0  # s
+# What steps are lost to, and what to do.
+SLOW = {
+    'stepping': 'Stepping is slow: lower rate or substeps, use fewer probes or waves, or a faster '
+                'machine',
+    'publishing': 'Publishing is slow, as to a host that does not answer any more: give UDPv4 '
+                  '<non_blocking_send>true</non_blocking_send> in the Fast DDS profile, as '
+                  f'{network.PROFILE.name} of this package has it',
+    'machine': 'Neither stepping nor publishing is slow: the machine is too busy, stood still, or '
+               'the clock went ahead'}
 
 
 class Reports:
@@ -32,28 +42,33 @@ class Reports:
     The reports of a node.
 
     Main arguments: ``node``; ``session``; ``now`` s on the steady clock.  Public: ``complaints``,
-    where refused messages are counted and said.
+    where refused messages are counted and said; ``rivals``, who hear those of thrust.
     """
 
     def __init__(self, node, session, now):
         """Create the publisher and begin to count."""
         self._node, self._session, self._log = node, session, node.get_logger()
-        self.complaints = Complaints(self._log.warning)
+        self.complaints, self.rivals = Complaints(self._log.warning), Rivals()
+        self._neighbours = Neighbours(node, self.rivals)
+        self._refused, self._wrong_before = 0, set()
         rate = session.simulation.rate
         self._meter, self._status_meter = figures.Meter(rate, now), figures.Meter(rate, now)
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', qos.OUTPUT)
         self._status = DiagnosticStatus(
-            name=f'{node.get_name()}: motion', hardware_id=node.get_fully_qualified_name())
+            # Aggregators tell statuses apart by their names alone.
+            name=f'{node.get_fully_qualified_name().lstrip("/")}: motion',
+            hardware_id=node.get_fully_qualified_name())
         self._next_diagnostics = now + DIAGNOSTICS_PERIOD
         self._status_period = session.scene.values['status_period']
         self._next_status = now + self._status_period
-        self._twin_seen, self._drops_said, self._unsaid_drops = False, None, 0
+        self._drops_said, self._unsaid_drops = None, 0
         self._said, self._stepping = set(), ()
 
     def loaded(self):
         """Say what was loaded and what the boat will do, and what is wrong with it."""
         scene, simulation = self._session.scene, self._session.simulation
-        self._log.info(figures.loaded(scene, simulation))
+        self._log.info(figures.loaded(scene, simulation) + '; '
+                       + figures.heading_and_speed(Frame(self._session)))
         self.warnings(scene, scene.plan())
 
     def warnings(self, scene, plan=None):
@@ -66,10 +81,10 @@ class Reports:
                 self._log.warning(sentence)
         self._said = set(sentences)
 
-    def stepped(self, seconds):
-        """Count a step that took so long, with its publications."""
-        self._meter.step(seconds)
-        self._status_meter.step(seconds)
+    def stepped(self, stepping, publishing):
+        """Count a step that took so many s, and its publications."""
+        self._meter.step(stepping, publishing)
+        self._status_meter.step(stepping, publishing)
 
     def stopped(self):
         """Say that the motion has a fault."""
@@ -79,14 +94,16 @@ class Reports:
         """Count steps given up, and say so once in a while; see `drive` for who loses them."""
         self._meter.drop(steps)
         self._unsaid_drops += steps
-        if self._drops_said is not None and now - self._drops_said < Complaints.PERIOD:
+        if self._drops_said is not None and now - self._drops_said < Throttle.PERIOD:
             return
-        seconds = self._unsaid_drops / self._session.simulation.rate
+        pace = self._session.simulation.rate
+        seconds = self._unsaid_drops / pace
         lost = ('the boat stood still in them, stamps and sea went on' if lost_to_boat
                 else 'simulated time went slower than asked')
+        pace *= self._session.scene.values['time_factor'] or 1.0
+        slow = SLOW[self._meter.slow(steps / pace, pace)]
         self._log.warning(
-            f'fell behind: {self._unsaid_drops} steps ({seconds:.2f} s) dropped, {lost}. If it '
-            'goes on, lower rate or substeps, use fewer probes or waves, or a faster machine')
+            f'fell behind: {self._unsaid_drops} steps ({seconds:.2f} s) dropped, {lost}. {slow}')
         self._drops_said, self._unsaid_drops = now, 0
 
     def look(self, paused, now):
@@ -104,12 +121,21 @@ class Reports:
         return True
 
     def _diagnose(self, paused, now):
-        held = self._meter.look(now)
-        level, message = DiagnosticStatus.OK, 'paused' if paused else 'moving'
-        if self._has_twin():
-            level, message = DiagnosticStatus.WARN, 'another node has this name'
+        held, refused = self._meter.look(now), self.complaints.total - self._refused
+        self._refused += refused
+        wrong = self._neighbours.look(now)
+        for subject, sentence in wrong.items():
+            if subject not in self._wrong_before:
+                self._log.warning(sentence)
+        self._wrong_before = set(wrong)
+        warnings = [*wrong.values()]
+        if refused:
+            warnings.append(f'{refused} messages refused, the last: {self.complaints.last}')
         if held.dropped:
-            level, message = DiagnosticStatus.WARN, f'{held.dropped} steps dropped'
+            warnings.append(f'{held.dropped} steps dropped')
+        level, message = DiagnosticStatus.OK, 'paused' if paused else 'moving'
+        if warnings:
+            level, message = DiagnosticStatus.WARN, '; '.join(warnings)
         if self._session.fault:
             level, message = DiagnosticStatus.ERROR, self._session.fault
         values = figures.values(self._session, self._meter, held, self.complaints)
@@ -121,17 +147,3 @@ class Reports:
         set_stamp(array.header.stamp,
                   self._session.stamp if own else self._node.get_clock().now().nanoseconds)
         self._publisher.publish(array)
-
-    def _has_twin(self):
-        """Return True while the graph shows a second node of this name; say it once."""
-        node = self._node
-        own = (node.get_name(), node.get_namespace())
-        twin = node.get_node_names_and_namespaces().count(own) > 1
-        if twin and not self._twin_seen:
-            self._log.warning(
-                f'another node is called {node.get_fully_qualified_name()}: both answer its '
-                'services and publish its topics. Give one a namespace with '
-                '--ros-args -r __ns:=/other (a node that was killed stays in the graph for '
-                'about 20 s)')
-        self._twin_seen = twin
-        return twin

@@ -48,7 +48,22 @@ def unpack_waves(raw):
     if len(raw) > MAX_BYTES:
         raise Refused('too long', f'{TOPIC}: expected at most {MAX_COMPONENTS} rows '
                       f'of four, got a message of {len(raw)} bytes')
-    return deserialize_message(raw, Float64MultiArray).data
+    message = deserialize_message(raw, Float64MultiArray)
+    check_layout(message.layout, len(message.data))
+    return message.data
+
+
+def check_layout(layout, count):
+    """Raise `Refused` unless a layout, if there is one, says rows of four one after the other."""
+    sizes = [dim.size for dim in layout.dim]
+    strides = [dim.stride for dim in layout.dim]
+    # Strides may be left out. Of a dimension, its own size times those that follow.
+    whole = [math.prod(sizes[i:]) for i in range(len(sizes))]
+    if layout.data_offset or sizes not in ([], [count], [count // 4, 4]) or any(
+            stride not in (0, right) for stride, right in zip(strides, whole)):
+        raise Refused('other layout', f'{TOPIC}: expected rows of four one after the other, with '
+                      f'no layout or sizes [{count // 4}, 4], strides [{count}, 4] and offset 0, '
+                      f'got sizes {sizes}, strides {strides} and offset {layout.data_offset}')
 
 
 def read_waves(values):

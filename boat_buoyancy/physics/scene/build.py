@@ -15,8 +15,8 @@
 """
 A boat, a sea and a start put together from parameters that are right one by one.
 
-``in_force`` is {name: value} of the parameters that a part is made of (`MADE_OF`), None where one
-is to be derived.
+``in_force`` is {name: value} of the parameters that a part is made of (`MADE_OF`), None where
+one is to be derived.
 """
 
 from dataclasses import replace
