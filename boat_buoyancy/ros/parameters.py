@@ -34,8 +34,9 @@ from ..physics.scene.scene import scene_from_values
 
 TYPES = {
     'float': Parameter.Type.DOUBLE, 'int': Parameter.Type.INTEGER, 'bool': Parameter.Type.BOOL,
-    'string': Parameter.Type.STRING, 'float_array': Parameter.Type.DOUBLE_ARRAY,
-    'int_array': Parameter.Type.INTEGER_ARRAY, 'string_array': Parameter.Type.STRING_ARRAY}
+    'string': Parameter.Type.STRING, 'path': Parameter.Type.STRING,
+    'float_array': Parameter.Type.DOUBLE_ARRAY, 'int_array': Parameter.Type.INTEGER_ARRAY,
+    'string_array': Parameter.Type.STRING_ARRAY}
 
 
 def is_ros_own(name):

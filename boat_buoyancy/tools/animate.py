@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..physics import Sea
+from ..physics.boat.cuts import components
 from ..physics.rotation import rotation_matrix
 
 ENDINGS = ('.gif',)
@@ -37,12 +38,12 @@ class View:
     """
     What stays the same in every frame.
 
-    ``corners`` (n, 3) m of the hull and ``probes`` (p, 3) m in the body frame; ``reach`` m of
-    water shown to every side; ``low`` and ``high`` m, the heights shown; ``swing`` m, the
+    ``shells``, corners (n, 3) m of each part of the hull, and ``probes`` (p, 3) m in the body
+    frame; ``reach`` m of water shown to every side; ``low`` and ``high`` m, the heights shown; ``swing`` m, the
     highest wave; ``rows`` of the run to draw; ``pace``, simulated over shown time; ``sea``.
     """
 
-    corners: np.ndarray
+    shells: list
     probes: np.ndarray
     reach: float
     low: float
@@ -90,7 +91,8 @@ def with_white(image):
 
 def view_of(run, simulation):
     """Return the `View` that holds all of a run."""
-    corners = hull_corners(simulation.boat)
+    shells = hull_shells(simulation.boat)
+    corners = np.concatenate(shells)
     size = max(np.linalg.norm(corners - corners.mean(axis=0), axis=1).max(), 0.2)
     step = max(FRAME_MILLISECONDS / 1000.0, run.time[-1] / MAX_FRAMES)
     moments = np.arange(0.0, run.time[-1] * (1.0 - 1e-9), step)
@@ -101,16 +103,26 @@ def view_of(run, simulation):
     # The views stand side by side, equally tall and to one scale.
     reach = max(2.2 * size, (high - low) * WIDER / 2)
     room = reach / WIDER - (high - low) / 2
-    return View(corners, simulation.boat.hull.positions, reach, low - room, high + room,
+    return View(shells, simulation.boat.hull.positions, reach, low - room, high + room,
                 swing, np.round(moments * simulation.rate).astype(int),
                 step / FRAME_MILLISECONDS * 1000.0, simulation.sea)
 
 
+def hull_shells(boat):
+    """Return the corners (n, 3) m in the body frame of each part whose outline is drawn."""
+    surface = boat.hull.surface
+    if surface is None:
+        return [hull_corners(boat)]
+    shell = components(surface.triangles)
+    return [surface.corners[np.unique(surface.triangles[shell == number])]
+            for number in range(shell.max() + 1)]
+
+
 def hull_corners(boat):
     """
-    Return points (n, 3) m in the body frame whose outline is drawn as the hull.
+    Return points (n, 3) m in the body frame whose outline is drawn for a hull without a surface.
 
-    The probes, those of a box put out to its corners, and the same a probe's height further up.
+    The probes, columns put out to the corners of a box, and the same a probe's height further up.
     """
     bottom, height = boat.hull.positions, boat.hull.height[:, None]
     middle = bottom.mean(axis=0)
@@ -157,11 +169,12 @@ def draw_side(axes, run, view, row):
     ahead = np.array([np.cos(yaw), np.sin(yaw), 0.0])
     along = np.linspace(-view.reach, view.reach, 241)
     surface = view.sea.elevation(x + along * ahead[0], y + along * ahead[1], run.time[row])
-    corners, probes = (placed(run, row, points) - [x, y, 0.0]
-                       for points in (view.corners, view.probes))
-    line = outline(np.column_stack([corners @ ahead, corners[:, 2]]))
+    *shells, probes = (placed(run, row, points) - [x, y, 0.0]
+                       for points in (*view.shells, view.probes))
     axes.fill_between(along, surface, view.low, color=WATER, linewidth=0.0)
-    axes.fill(*line.T, facecolor=HULL, edgecolor=EDGE, linewidth=1.5)
+    for corners in shells:
+        line = outline(np.column_stack([corners @ ahead, corners[:, 2]]))
+        axes.fill(*line.T, facecolor=HULL, edgecolor=EDGE, linewidth=1.5)
     # The water in front of the hull, seen through.
     axes.fill_between(along, surface, view.low, color=WATER, alpha=0.45, linewidth=0.0)
     axes.plot(along, surface, color=SURFACE, linewidth=1.5)
@@ -183,10 +196,10 @@ def draw_above(axes, run, view, row):
                       levels=np.linspace(-1.6 * view.swing, 1.2 * view.swing, LEVELS))
     track = run.position[:row + 1, :2]
     axes.plot(*track.T, color=EDGE, linewidth=1.2, linestyle=':')
-    corners, probes = (placed(run, row, points)
-                       for points in (view.corners, view.probes))
-    axes.fill(*outline(corners[:, :2]).T, facecolor=HULL, edgecolor=EDGE, linewidth=1.5)
-    axes.fill(*placed(run, row, bow_mark(view.corners))[:, :2].T, color=EDGE)
+    *shells, probes = (placed(run, row, points) for points in (*view.shells, view.probes))
+    for corners, body in zip(shells, view.shells):
+        axes.fill(*outline(corners[:, :2]).T, facecolor=HULL, edgecolor=EDGE, linewidth=1.5)
+        axes.fill(*placed(run, row, bow_mark(body))[:, :2].T, color=EDGE)
     draw_probes(axes, probes[:, 0], probes[:, 1], run.probe_depths[row])
     axes.set(xlim=(x - view.reach, x + view.reach), ylim=(y - view.reach, y + view.reach),
              aspect='equal', facecolor=WATER, xlabel='x (m)', ylabel='y (m)')
