@@ -19,8 +19,9 @@ import re
 from boat_buoyancy.physics.boat.boat import Boat
 from boat_buoyancy.physics.boat.columns import box_hull
 from boat_buoyancy.physics.boat.hull import Hull, probe_hull
+from boat_buoyancy.physics.boat.shapes import box_shaped, mesh_shaped
 from boat_buoyancy.physics.boat.state import body_frame, State
-from boat_buoyancy.physics.boat.surface import box_surface
+from boat_buoyancy.physics.boat.surface import box_surface, joined
 from boat_buoyancy.physics.hydrostatics.metacentric_height import metacentric_heights
 from boat_buoyancy.physics.hydrostatics.rest import (
     draft, floating_state, floats, rest_attitude, rest_state)
@@ -373,9 +374,40 @@ def test_a_boat_that_turns_over_is_told_so():
 
 def test_a_load_off_the_middle_is_told_by_side_and_distance():
     aft = flotation_warnings(four_probes(center_of_mass=(0.1, 0.0, 0.0), floatiness=3.0))
-    assert 'the lift acts 0.1 m aft of the centre of mass' in aft[0]
+    assert 'its lift acts 0.1 m aft of its centre of mass' in aft[0]
     side = flotation_warnings(four_probes(center_of_mass=(0.0, -0.02, 0.0), floatiness=3.0))
-    assert 'the lift acts 0.02 m to port of the centre of mass' in side[0]
+    assert 'its lift acts 0.02 m to port of its centre of mass' in side[0]
+
+
+def test_a_mirrored_boat_is_told_of_the_mirrored_list():
+    said = [flotation_warnings(four_probes(floatiness=3.0, center_of_mass=(x, y, 0.0)))[0]
+            for x in (0.1, -0.1) for y in (0.02, -0.02)]
+    roll, pitch = np.transpose([
+        [float(angle) for angle in re.search(
+            r'the boat rests at roll (\S+) and pitch (\S+) degrees', one).groups()]
+        for one in said])
+    assert (roll == -roll[1] * np.array([1, -1, 1, -1])).all() and roll[1] > 0.0
+    assert (pitch == pitch[0] * np.array([1, 1, -1, -1])).all() and pitch[0] > 0.0
+    for sentence, sides, places in zip(
+            said, ('port and bow', 'starboard and bow', 'port and stern', 'starboard and stern'),
+            ('0.1 m aft and 0.02 m to starboard', '0.1 m aft and 0.02 m to port',
+             '0.1 m ahead and 0.02 m to starboard', '0.1 m ahead and 0.02 m to port')):
+        assert f'({sides} down)' in sentence and f'its lift acts {places}' in sentence
+
+
+def test_columns_of_a_shape_that_lie_under_water_are_no_full_probes():
+    # A bulb beneath a box, as a mesh would have it.
+    bulb = joined([box_surface((4.0, 2.0, 1.0)), box_surface((1.0, 4.0, 0.4), (0.0, 0.0, -1.0))])
+    hull = mesh_shaped(bulb, (2, 2), 5.0, specific_weight=SALT * GRAVITY)
+    boat = Boat(5.0 * SALT, hull, 5.0 * SALT * bulb.unit_inertia)
+    full = still_load(boat, rest_state(boat))[1] >= hull.height
+    assert full.any() and not full.all() and flotation_warnings(boat) == ()
+
+
+def test_a_hull_that_sinks_is_told_to_become_larger_and_probes_to_lift_more():
+    sentence, = flotation_warnings(Boat(9000.0, box_shaped(
+        (4.0, 2.0, 1.0), -0.5, (2, 2), specific_weight=SALT * GRAVITY), [1000.0] * 3))
+    assert 'make the hull larger' in sentence and 'probes.floatiness' not in sentence
 
 
 def test_a_probe_lifted_out_by_the_load_is_named():

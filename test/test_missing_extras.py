@@ -22,6 +22,7 @@ import pytest
 
 SCENE = str(Path(__file__).parents[1] / 'config' / 'default.yaml')
 SIMULATE, CHART = 'boat_buoyancy.tools.simulate', 'boat_buoyancy.tools.chart.main'
+REPORT = 'boat_buoyancy.tools.report'
 RUN = [SCENE, '--duration', '0.1']
 # What the extra brings: Pillow comes with Matplotlib.
 BROUGHT = ('matplotlib', 'PIL', 'scipy')
@@ -30,6 +31,7 @@ BROUGHT = ('matplotlib', 'PIL', 'scipy')
 @pytest.mark.parametrize('module, words, needs', [
     (SIMULATE, [*RUN, '--plot', 'a.png'], '--plot needs matplotlib '),
     (SIMULATE, [*RUN, '--animate', 'a.gif'], '--animate needs matplotlib '),
+    (REPORT, [SCENE, '--plot', 'a.png'], '--plot needs matplotlib '),
     (CHART, ['--speed'], 'a chart needs matplotlib and scipy '),
     (CHART, [SCENE, '--tolerance', '0.01'], 'a chart needs matplotlib and scipy ')])
 def test_what_needs_the_extra_chart_says_so_in_one_line(module, words, needs):
@@ -40,7 +42,7 @@ def test_what_needs_the_extra_chart_says_so_in_one_line(module, words, needs):
 
 
 @pytest.mark.parametrize('module, words', [
-    (SIMULATE, RUN), (CHART, ['--help']), ('boat_buoyancy.tools.report', [SCENE])])
+    (SIMULATE, RUN), (CHART, ['--help']), (REPORT, [SCENE])])
 def test_what_does_not_need_it_runs_all_the_same(module, words):
     done = without(BROUGHT, module, words)
     assert done.returncode == 0, done.stderr

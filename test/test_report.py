@@ -16,7 +16,6 @@
 
 from contextlib import redirect_stderr, redirect_stdout
 import io
-from itertools import pairwise
 import json
 import os
 from pathlib import Path
@@ -24,6 +23,7 @@ import subprocess
 import sys
 
 from boat_buoyancy.physics import load_scene, SimulationError
+from boat_buoyancy.physics.hydrostatics import rest
 from boat_buoyancy.tools import command_line
 from boat_buoyancy.tools.report import exact_heel_degrees, main
 from boat_buoyancy.tools.report import text as as_text
@@ -33,11 +33,21 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 SCENES = sorted(path for path in (ROOT / 'config').glob('*.yaml'))
+# What a boat that sinks, or finds no rest, has not.
+AT_REST = [
+    'draft_m', 'rest_roll_deg', 'rest_pitch_deg', 'wetted_surface_m2', 'gm_transverse_m',
+    'gm_longitudinal_m', 'heave_period_s', 'roll_period_s', 'pitch_period_s',
+    'heave_damping_ratio', 'roll_damping_ratio', 'pitch_damping_ratio', 'model_error']
 KEYS = [
-    'draft_m', 'floatiness', 'displacement_kg', 'gm_transverse_m', 'gm_longitudinal_m',
+    'draft_m', 'rest_roll_deg', 'rest_pitch_deg', 'floatiness', 'displacement_kg',
+    'displaced_volume_m3', 'wetted_surface_m2', 'gm_transverse_m', 'gm_longitudinal_m',
     'heave_period_s', 'roll_period_s', 'pitch_period_s', 'heave_damping_ratio',
-    'roll_damping_ratio', 'pitch_damping_ratio', 'max_stable_step_s', 'substeps', 'warnings',
-    'gz_heel_deg', 'gz_m', 'gz_exact_to_deg', 'step']
+    'roll_damping_ratio', 'pitch_damping_ratio', 'max_stable_step_s', 'substeps', 'sea',
+    'warnings', 'gz_heel_deg', 'gz_m', 'gz_exact_m', 'gz_exact_to_deg', 'model_error', 'step']
+SEA_KEYS = ['significant_height_m', 'shortest_wave_m', 'shortest_wave_s', 'longest_wave_m',
+            'longest_wave_s', 'meets']
+ERROR_KEYS = ['draft_m', 'gm_transverse_m', 'gm_longitudinal_m', 'gz_greatest_m',
+              'gz_greatest_at_deg', 'gz_rms_to_30_deg_m']
 SMALL_BARGE = ['hull.size: [4.0, 2.0, 1.0]', 'boat.mass: 2000.0', 'water_density: 1000.0']
 UNDAMPED = ['damping.linear_retention: [1.0]', 'damping.angular_retention: [1.0]']
 FOUR_PROBES = ['boat.mass: 1000.0',
@@ -97,10 +107,16 @@ def test_every_scene_has_all_figures_and_only_numbers(path):
         'leapfrog', 'implicit', 'rk4', 'symplectic_euler', 'euler'}
     assert result['gz_heel_deg'] == [5.0 * i for i in range(37)]
     assert len(result['gz_m']) == 37
-    numbers = [result[key] for key in KEYS if key not in (
-        'max_stable_step_s', 'warnings', 'gz_heel_deg', 'gz_m', 'step')]
-    for value in [*numbers, *result['max_stable_step_s'].values(), *result['gz_m']]:
+    nested = 'max_stable_step_s', 'sea', 'warnings', 'gz_heel_deg', 'model_error', 'step'
+    numbers = [result[key] for key in KEYS if key not in (*nested, 'gz_m', 'gz_exact_m')]
+    for value in [*numbers, *result['max_stable_step_s'].values(), *result['gz_m'],
+                  *(result['gz_exact_m'] or [])]:
         assert value is None or is_number(value)
+    of_hull = load_scene(path).boat.hull.surface is not None
+    assert all((result[key] is not None) == of_hull for key in (
+        'displaced_volume_m3', 'wetted_surface_m2', 'gz_exact_m', 'model_error'))
+    assert not of_hull or list(result['model_error']) == ERROR_KEYS
+    assert result['sea'] is None or list(result['sea']) == SEA_KEYS
     assert isinstance(result['substeps'], int) and result['substeps'] >= 1
     for sentence in result['warnings']:
         assert len(sentence.split()) > 6 and '\n' not in sentence
@@ -123,7 +139,11 @@ def test_the_small_barge_is_reported_as_computed_by_hand(scene):
     heel = np.radians(10.0)
     assert result['gz_m'][2] == pytest.approx(np.sin(heel) * (
         result['gm_transverse_m'] + 2.0 / 3.0 * np.tan(heel)**2), rel=1e-12)
-    assert result['warnings'] == []
+    assert result['gz_exact_m'][2] == pytest.approx(result['gz_m'][2], rel=1e-12)
+    assert (result['rest_roll_deg'], result['rest_pitch_deg']) == (0.0, 0.0)
+    assert result['displaced_volume_m3'] == pytest.approx(2.0, rel=1e-14)
+    assert result['wetted_surface_m2'] == pytest.approx(8.0 + 12.0 * 0.25, rel=1e-12)
+    assert result['sea'] is None
 
 
 def test_damping_ratios_are_those_of_the_parameters(scene):
@@ -148,20 +168,25 @@ def test_the_barge_has_its_righting_arms_and_says_how_far_they_are_the_boxs():
 
 def test_without_columns_side_by_side_no_exact_righting_arm_is_promised(scene):
     for lines in ([*SMALL_BARGE, 'hull.probes: [2, 1]'], [*SMALL_BARGE, 'probes.law: spring'],
-                  [*SMALL_BARGE, 'probes.law: soft'], FOUR_PROBES):
+                  [*SMALL_BARGE, 'probes.law: soft'], FOUR_PROBES,
+                  # One column along has no waterplane to trim with.
+                  [*SMALL_BARGE, 'hull.probes: [1, 2]',
+                   'boat.center_of_mass: [0.05, 0.0, 0.0]']):
         assert exact_heel_degrees(load_scene(scene(*lines))) is None
 
 
 def test_a_boat_that_sinks_has_no_draft_no_periods_and_no_righting_arm(scene):
     path = scene('boat.mass: 9000.0')
     result = report(path)
-    for key in KEYS[:1] + KEYS[3:11] + ['gz_exact_to_deg']:
+    for key in [*AT_REST, 'gz_exact_to_deg']:
         assert result[key] is None
-    assert result['gz_m'] == [None] * 37
+    assert result['gz_m'] == result['gz_exact_m'] == [None] * 37
+    assert result['displaced_volume_m3'] == pytest.approx(8.0, rel=1e-12)
     assert result['displacement_kg'] == pytest.approx(8200.0, rel=1e-12)
     assert result['warnings'][0].startswith('The boat sinks: its floatiness is 0.911111')
     shown = text(path)
     assert 'none: the boat sinks' in shown and '- The boat sinks' in shown
+    assert '\nNo rest in still water\n' in shown
 
 
 def test_a_boat_that_cannot_float_upright_has_no_roll_period_and_is_told(scene):
@@ -198,14 +223,14 @@ def test_a_shallow_boat_is_stepped_as_its_fastest_oscillation_needs(scene):
 
 def test_the_righting_arms_are_printed_to_the_millimetre(scene):
     path = scene(*SMALL_BARGE)
-    result, lines = report(path), text(path).splitlines()
-    heels, arms = [], []
-    for above, below in pairwise(lines):
-        if above.startswith('  heel '):
-            heels += map(float, above.split()[1:])
-            arms += map(float, below.split()[1:])
-    assert heels == result['gz_heel_deg']
-    np.testing.assert_allclose(arms, result['gz_m'], atol=5.1e-4)
+    result, shown = report(path), {'heel': [], 'GZ': [], 'hull': []}
+    for line in text(path).splitlines():
+        name, *values = line.split() or ['']
+        if name in shown and line.startswith('  ') and len(values) in (7, 10):
+            shown[name] += map(float, values)
+    assert shown['heel'] == result['gz_heel_deg']
+    np.testing.assert_allclose(shown['GZ'], result['gz_m'], atol=5.1e-4)
+    np.testing.assert_allclose(shown['hull'], result['gz_exact_m'], atol=5.1e-4)
 
 
 def test_without_json_the_report_is_printed_for_a_person(scene, capsys):
@@ -222,6 +247,222 @@ def test_the_vanishing_angle_is_where_the_righting_arm_crosses_zero(scene):
     heel, arm = np.array(result['gz_heel_deg']), np.array(result['gz_m'])
     last = np.flatnonzero(arm[1:] <= 0.0)[0] + 1
     assert heel[last - 1] <= told <= heel[last]
+
+
+# Lists and trims.
+
+OFF_CENTRE = ['hull.size: [20.0, 6.0, 3.0]', 'boat.mass: 184500.0']
+
+
+def test_a_boat_with_a_list_is_told_of_by_side_and_counts_from_there(scene):
+    said = {}
+    for x, y in ((0.8, 0.25), (0.8, -0.25), (-0.8, 0.25)):
+        path = scene(*OFF_CENTRE, f'boat.center_of_mass: [{x}, {y}, 0.3]')
+        said[x, y] = report(path), text(path)
+    (result, shown), (across, shown_across), (along, shown_along) = said.values()
+    # As computed before by minimising energy, to the digit given.
+    assert result['rest_roll_deg'] == pytest.approx(-13.7, abs=0.05)
+    assert result['draft_m'] == pytest.approx(2.53, abs=0.005)
+    assert ('At rest in still water: list 13.7 degrees to port, trim 2.1 degrees by the bow\n'
+            in shown)
+    assert 'list 13.7 degrees to starboard, trim 2.1 degrees by the bow' in shown_across
+    assert 'list 13.7 degrees to port, trim 2.1 degrees by the stern' in shown_along
+    for other in (across, along):
+        for key in ('draft_m', 'wetted_surface_m2', 'gm_transverse_m', 'gm_longitudinal_m',
+                    'roll_period_s', 'gz_exact_to_deg'):
+            assert other[key] == pytest.approx(result[key], rel=1e-9), key
+    np.testing.assert_allclose(along['gz_m'], result['gz_m'], atol=1e-9)
+    # Of all sides of the mean draft 1.5 m is wet.
+    assert result['wetted_surface_m2'] == pytest.approx(120.0 + 52.0 * 1.5, rel=1e-9)
+
+    def ends(shown):
+        words = ' '.join(shown.split()).split('brings the boat back to its list from ')[1].split()
+        return words[0], words[3], words[6], words[9].rstrip('.')
+
+    port, to_port, starboard, to_starboard = ends(shown)
+    assert (to_port, to_starboard) == ('port', 'starboard')
+    # A mirrored boat comes back from as far on the other side.
+    assert ends(shown_across) == (starboard, 'port', port, 'starboard')
+    heel, arm = np.array(result['gz_heel_deg']), np.array(result['gz_m'])
+    lost = np.flatnonzero(arm <= 0.0)[0]
+    assert heel[lost - 1] <= float(starboard) <= heel[lost]
+
+
+def test_the_exact_range_of_a_trimmed_box_ends_where_its_arms_part(scene):
+    result = report(scene(*OFF_CENTRE, 'boat.center_of_mass: [0.8, 0.25, 0.3]'))
+    off = np.abs(np.subtract(result['gz_m'], result['gz_exact_m']))
+    exact = np.array(result['gz_heel_deg']) <= result['gz_exact_to_deg']
+    assert 15.0 < result['gz_exact_to_deg'] < 25.0
+    assert off[exact].max() < 1e-12 < 1e-3 < off[~exact][0]
+
+
+def test_a_self_righting_boat_is_righted_from_any_heel(scene):
+    shown = text(scene(*SMALL_BARGE, 'boat.center_of_mass: [0.0, 0.0, -2.0]',
+                       'hull.model: panels'))
+    assert 'rights the boat from any heel.' in shown
+
+
+def test_a_boat_that_finds_no_rest_has_nothing_that_is_said_of_one(scene, monkeypatch):
+    # No boat is known that finds none, so the search is cut short.
+    monkeypatch.setattr(rest, 'MAX_TURNS', 1)
+    path = scene(*OFF_CENTRE, 'boat.center_of_mass: [0.7, 0.25, 0.3]')
+    result, shown = report(path), text(path)
+    assert all(result[key] is None for key in AT_REST)
+    assert '\nNo rest in still water\n' in shown and 'The boat finds no rest' in shown
+
+
+# The model and the hull itself.
+
+def test_panels_have_the_righting_arms_of_the_surface_at_any_heel(scene):
+    path = scene('hull.model: panels')
+    result, columns = report(path), report(scene('boat.mass: 2000.0'))
+    np.testing.assert_allclose(result['gz_m'], result['gz_exact_m'], atol=1e-12)
+    assert result['gz_exact_m'] == columns['gz_exact_m']
+    assert result['gz_exact_to_deg'] == 180.0 and result['warnings'] == []
+    assert max(abs(result['model_error'][key]) for key in ERROR_KEYS
+               if key != 'gz_greatest_at_deg') < 1e-12
+    shown = text(scene('hull.model: panels'))
+    assert 'box of 12 panels, longest edge 4.47 m; depths at 4 probes' in shown
+    assert "Exactly that of the hull's surface, at any heel." in shown
+    assert 'rights the boat up to 90 degrees' in shown
+
+
+def test_finer_panels_than_still_water_needs_change_nothing_of_the_report(scene):
+    fine, coarse = (report(scene('hull.model: panels', *more))
+                    for more in (['hull.panel_size: 1.5'], []))
+    for key in ('draft_m', 'gm_transverse_m', 'roll_period_s', 'gz_m', 'wetted_surface_m2'):
+        assert fine[key] == pytest.approx(coarse[key], rel=1e-9, abs=1e-12), key
+
+
+def test_where_columns_part_from_the_hull_a_warning_names_the_heel_and_the_cure(scene):
+    result = report(scene('boat.mass: 2000.0'))
+    arms, exact = np.array(result['gz_m']), np.array(result['gz_exact_m'])
+    # As measured on the default box by exact clipping.
+    heel = result['gz_heel_deg'].index
+    assert arms[heel(25.0)] == pytest.approx(0.415, abs=5e-4)
+    assert exact[heel(25.0)] == pytest.approx(0.353, abs=5e-4)
+    assert exact[heel(45.0)] == pytest.approx(0.354, abs=5e-4)
+    sentence, = result['warnings']
+    off = np.abs(arms - exact)
+    first = np.array(result['gz_heel_deg'])[off > 0.05 * exact.max()][0]
+    assert sentence.startswith(f'The columns are not the hull from {first:.0f} degrees of heel')
+    assert 'hull.model: panels' in sentence and f'{off.max():.3f} m off' in sentence
+    error = result['model_error']
+    assert error['gz_greatest_m'] == off.max()
+    assert error['gz_greatest_at_deg'] == 90.0
+    assert error['gz_rms_to_30_deg_m'] == pytest.approx(np.sqrt(np.mean(off[:7] ** 2)))
+    assert abs(error['draft_m']) < 1e-12 and abs(error['gm_transverse_m']) < 1e-9
+
+
+def test_springs_on_a_box_miss_its_gm_by_what_is_known(scene):
+    # They push at the bottom, not at half the draft: GM lacks KB.
+    result = report(scene(*SMALL_BARGE, 'probes.law: spring'))
+    assert result['model_error']['gm_transverse_m'] == pytest.approx(-0.125, rel=1e-9)
+    assert result['model_error']['draft_m'] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_probes_have_no_hull_to_be_compared_with(scene):
+    path = scene(*FOUR_PROBES)
+    result = report(path)
+    for key in ('displaced_volume_m3', 'wetted_surface_m2', 'gz_exact_m', 'gz_exact_to_deg',
+                'model_error'):
+        assert result[key] is None
+    shown = text(path)
+    assert '4 probes, law spring' in shown and 'depth of the deepest probe' in shown
+    assert 'hull itself' not in shown and 'wetted' not in shown
+
+
+@pytest.mark.parametrize('lines, words', [
+    ([], 'box on 4 columns'), (['probes.law: soft'], 'box on 4 probes, law soft'),
+    (['hull.shape: twin', 'hull.spacing: 3.0'], 'twin on 8 columns')])
+def test_the_model_in_force_is_named_with_its_size(lines, words, scene):
+    assert text(scene(*lines, 'boat.mass: 2000.0')).splitlines()[0].endswith(f'kg, {words}')
+
+
+# The sea.
+
+def test_the_sea_is_given_by_its_height_and_its_ends(scene):
+    path = scene('sea.waves: [0.3, 6.0, 0.0, 0.0, 0.4, 4.0, 1.0, 0.0, 0.01, 1.0, 2.0, 0.0]')
+    sea = report(path)['sea']
+    assert sea['significant_height_m'] == pytest.approx(
+        4 * np.sqrt((0.3**2 + 0.4**2 + 0.01**2) / 2))
+    # The third has less than a hundredth of the energy.
+    assert (sea['shortest_wave_s'], sea['longest_wave_s']) == (4.0, 6.0)
+    assert sea['shortest_wave_m'] == pytest.approx(24.981, abs=1e-3)
+    assert sea['longest_wave_m'] == pytest.approx(9.81 * 36.0 / (2 * np.pi))
+    assert sea['meets'] == []
+    shown = text(path)
+    assert 'significant height 1.41 m' in shown and 'No natural period meets them.' in shown
+
+
+@pytest.mark.parametrize('small, period, meets', [
+    # Heave of this barge takes 1.003 s: within 20 %, and with a tenth of the energy or not.
+    (0.34, 1.19, ['heave']), (0.34, 1.21, []), (0.34, 0.81, ['heave']), (0.32, 1.19, [])])
+def test_a_natural_period_meets_the_sea_where_much_of_its_energy_is_near(
+        small, period, meets, scene):
+    heavy = ['boat.inertia: [50000.0, 50000.0, 90000.0]']
+    result = report(scene(*SMALL_BARGE, *heavy,
+                          f'sea.waves: [{small}, {period}, 0.0, 0.0, 1.0, 30.0, 0.0, 0.0]'))
+    assert result['heave_period_s'] == pytest.approx(1.003, abs=1e-3)
+    assert result['sea']['meets'] == meets
+
+
+def test_a_wave_that_meets_a_period_is_told_of_once_when_it_is_the_only_one(scene):
+    shown = text(scene(*SMALL_BARGE, 'sea.waves: [0.01, 1.05, 0.0, 0.0]'))
+    assert 'the waves that matter are 1.72 m (1.05 s) long' in shown
+    assert 'They meet the natural period of heave (1 s)' in shown
+
+
+# The picture.
+
+def test_the_righting_arms_are_drawn_where_asked(scene, tmp_path, capsys):
+    for number, lines in enumerate((
+            SMALL_BARGE, FOUR_PROBES, [*SMALL_BARGE, 'hull.model: panels',
+                                       'boat.center_of_mass: [0.0, 0.1, 0.0]'])):
+        path = tmp_path / f'gz{number}.png'
+        assert main([scene(*lines), '--plot', str(path)]) == 0
+        assert path.read_bytes().startswith(b'\x89PNG') and path.stat().st_size > 10_000
+        assert capsys.readouterr().out.endswith(f'\nwrote {path}\n')
+    assert main([scene(*SMALL_BARGE), '--json', '--plot', str(path)]) == 0
+    assert list(json.loads(capsys.readouterr().out)) == KEYS
+
+
+@pytest.mark.parametrize('lines, heels, before', [
+    (SMALL_BARGE, (0.0, 180.0), 'rights the boat up to '),
+    ([*SMALL_BARGE, 'boat.center_of_mass: [0.0, 0.1, 0.0]'], (-180.0, 180.0), 'to port up to ')])
+def test_the_picture_shows_the_arms_of_model_and_hull(lines, heels, before, scene, monkeypatch):
+    from boat_buoyancy.tools import righting_arm_plot
+    drawn = []
+    monkeypatch.setattr(righting_arm_plot, 'save', lambda made, path: drawn.append(made))
+    path = scene(*lines)
+    righting_arm_plot.draw('unused.png', load_scene(path).boat, 'scene')
+    axes, = drawn[0].axes
+    result = report(path)
+    curves = {line.get_label(): line.get_xydata() for line in axes.get_lines()}
+    assert axes.get_xlim() == heels
+    for label, key in (('as simulated (columns)', 'gz_m'), ('the hull itself', 'gz_exact_m')):
+        x, y = curves[label].T
+        np.testing.assert_allclose(np.interp(result['gz_heel_deg'], x, y), result[key], atol=1e-9)
+    mark = next(data for label, data in curves.items() if label.startswith('rests here'))
+    np.testing.assert_allclose(mark, [[result['rest_roll_deg'], 0.0]], atol=1e-12)
+    shaded, = axes.patches
+    low, high = shaded.get_extents().transformed(axes.transData.inverted()).intervalx
+    assert low - 1e-9 <= result['rest_roll_deg'] < high
+    told = ' '.join(text(path).split()).split(before)[1].split()[0]
+    assert axes.get_title(loc='left').endswith(f' to {told} degrees of heel')
+    assert high == pytest.approx(float(told), abs=0.5)
+
+
+def test_a_boat_that_sinks_has_no_picture(scene, tmp_path, capsys):
+    line = refused([scene('boat.mass: 9000.0'), '--plot', str(tmp_path / 'gz.png')], capsys)
+    assert '--plot' in line and 'sinks' in line and not (tmp_path / 'gz.png').exists()
+
+
+@pytest.mark.parametrize('name, words', [
+    ('gz.jpg', "--plot: expected a file name that ends in .png, got '"),
+    ('no/such/gz.png', 'No such file or directory')])
+def test_a_picture_that_cannot_be_written_is_refused(name, words, scene, tmp_path, capsys):
+    assert words in refused([scene(*SMALL_BARGE), '--plot', str(tmp_path / name)], capsys)
 
 
 # Bad input.

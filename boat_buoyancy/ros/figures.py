@@ -144,10 +144,9 @@ def loaded(scene, simulation):
         does = f'draft {draft(boat, rest_state(boat)):.3f} m, {lies}{motions}'
     else:
         does = f'sinks, floatiness {boat.floatiness:.3g}'
-    height = 4.0 * math.sqrt(float((sea.waves[:, 0] ** 2).sum()) / 2.0)
     water = ('flat water' if sea.is_flat else
              f'{len(sea.waves)} wave{"s" if len(sea.waves) > 1 else ""}, '
-             f'significant height {height:.3g} m')
+             f'significant height {sea.significant_height:.3g} m')
     return (f'{what}: {does}; {simulation.rate:g} Hz, {simulation.integrator}, '
             f'{simulation.substeps} substep{"s" if simulation.substeps > 1 else ""}, {kind()}; '
             f'{water}')

@@ -63,6 +63,27 @@ def require_extra(extra, what, *modules):
             f'pip install "boat_buoyancy[{extra}]", or on Ubuntu apt install {packages}')
 
 
+def check_picture(option, path, endings):
+    """
+    Raise ValueError or OSError now for a picture that could not be written later.
+
+    ``option`` asks for it, as '--plot'; ``path`` of its file; ``endings`` that it may have.
+    """
+    if path.suffix.lower() not in endings:
+        raise ValueError(f'{option}: expected a file name that ends in {" or ".join(endings)}, '
+                         f'got {str(path)!r}')
+    require_extra('chart', option, 'matplotlib')
+    check_writable(path)
+
+
+def check_writable(path):
+    """Raise OSError for a file that cannot be written."""
+    existed = path.exists()
+    path.open('ab').close()
+    if not existed:
+        path.unlink()
+
+
 def run(program, work):
     """
     Return the exit code of a program whose ``work`` is a function without arguments.

@@ -13,31 +13,39 @@
 # limitations under the License.
 
 """
-Print what a boat will do before it does it: ``buoyancy_report SCENE [--json]``.
+Print what a boat will do before it does it: ``buoyancy_report SCENE [--json] [--plot FILE.png]``.
 
-Draft, stability, periods, steps and righting arms of a parameter file's boat, in still water.
+Rest, stability, periods, steps and righting arms of a parameter file's boat, in still water.
 """
 
 import json
+from pathlib import Path
 import sys
-import textwrap
 
 import numpy as np
 
 from . import command_line
+from .report_text import text
 from ..physics.compiled import expected_kind
 from ..physics.hydrostatics.metacentric_height import metacentric_heights
 from ..physics.hydrostatics.natural_modes import MODES, modes
-from ..physics.hydrostatics.rest import draft, floats, rest_state
-from ..physics.hydrostatics.righting_arm import righting_arms, wall_sided_heel
+from ..physics.hydrostatics.rest import draft, floats, rest_attitude, rest_state
+from ..physics.hydrostatics.righting_arm import (
+    righting_arms, surface_righting_arms, trim, wall_sided_heel)
+from ..physics.hydrostatics.wetted_surface import wetted_surface
 from ..physics.scene.scene import load_scene
 from ..physics.step_size.limits import max_stable_steps
 
 PROGRAM = 'buoyancy_report'
 HEEL_DEGREES = np.arange(0.0, 181.0, 5.0)
-TABLE_COLUMNS = 10
+# The heels in degrees that a boat is sailed at, for the error of a model.
+SMALL_HEEL = 30.0
+# Of the greatest righting arm: where the model is off by more, a warning says so.
+TOLD = 0.05
 # A righting arm in m below which there is none.
 ROUND_OFF = 1e-9
+# A natural period meets the sea where waves within this part of it have this share of its energy.
+NEAR, MUCH = 0.2, 0.1
 
 
 def figures(scene):
@@ -45,142 +53,153 @@ def figures(scene):
     Return what ``--json`` prints of a `Scene`: names with their units, to numbers or None.
 
     None stands for what does not exist: the draft of a boat that sinks, the period of what does
-    not oscillate, the limit of an integrator without one.
+    not oscillate, the limit of an integrator without one, the surface of probes.
     """
     boat, plan = scene.boat, scene.plan()
-    floating = floats(boat)
-    transverse, longitudinal = metacentric_heights(boat)
-    motions = modes(boat) if floating else {}
-    arms = righting_arms(boat, np.radians(HEEL_DEGREES))
+    rest, surface = at_rest(boat), boat.on_surface
+    transverse, longitudinal = metacentric_heights(boat) if rest else (None, None)
+    roll, pitch = np.degrees(rest_attitude(boat)).tolist() if rest else (None, None)
+    motions = modes(boat) if rest else {}
+    periods = {name: motions[name].period if rest else None for name in MODES}
+    heel = np.radians(HEEL_DEGREES)
+    arms = righting_arms(boat, heel)
+    exact = None if surface is None else surface_righting_arms(boat, heel)
+    # A boat that sinks displaces its whole hull, which is less than its mass.
+    displaced = boat.mass * min(1.0, boat.floatiness)
     return {
-        'draft_m': draft(boat, rest_state(boat)) if floating else None,
+        'draft_m': draft(boat, rest) if rest else None,
+        'rest_roll_deg': roll,
+        'rest_pitch_deg': pitch,
         'floatiness': boat.floatiness,
-        # A boat that sinks displaces its whole hull, which is less than its mass.
-        'displacement_kg': boat.mass * min(1.0, boat.floatiness),
+        'displacement_kg': displaced,
+        'displaced_volume_m3':
+            None if surface is None else displaced * boat.gravity / boat.hull.specific_weight,
+        'wetted_surface_m2': wetted_surface(boat, rest) if surface and rest else None,
         'gm_transverse_m': transverse,
         'gm_longitudinal_m': longitudinal,
-        **{f'{name}_period_s': motions[name].period if floating else None for name in MODES},
-        **{f'{name}_damping_ratio': motions[name].damping_ratio if floating else None
+        **{f'{name}_period_s': periods[name] for name in MODES},
+        **{f'{name}_damping_ratio': motions[name].damping_ratio if rest else None
            for name in MODES},
         'max_stable_step_s': max_stable_steps(boat),
         'substeps': plan.substeps,
-        'warnings': [*scene.warnings, *plan.warnings],
+        'sea': sea_figures(scene.sea, periods),
+        'warnings': [*scene.warnings, *plan.warnings, *apart_warnings(boat, arms, exact)],
         'gz_heel_deg': HEEL_DEGREES.tolist(),
-        'gz_m': [None if np.isnan(arm) else arm + 0.0 for arm in arms.tolist()],
+        'gz_m': _numbers(arms),
+        'gz_exact_m': None if surface is None else _numbers(exact),
         'gz_exact_to_deg': exact_heel_degrees(scene),
+        'model_error': model_error(boat, surface, arms, exact),
         'step': expected_kind()}
 
 
+def at_rest(boat):
+    """Return the `State` at which a boat lies at rest; None where it sinks or finds no rest."""
+    return rest_state(boat) if floats(boat) and rest_attitude(boat) else None
+
+
+def model_error(boat, surface, arms, exact):
+    """
+    Return how far a boat's model is off its surface, {name: number}; None where one has no rest.
+
+    ``surface``, the `Boat` on its surface or None; ``arms`` and ``exact`` (n,) m, the righting
+    arms of both.  Draft and metacentric heights are those of the model less those of the surface,
+    each at its own rest.
+    """
+    states = [at_rest(one) if one else None for one in (boat, surface)]
+    if not all(states):
+        return None
+    model, true = ([draft(one, state), *metacentric_heights(one)]
+                   for one, state in zip((boat, surface), states))
+    off, small = np.abs(arms - exact), HEEL_DEGREES <= SMALL_HEEL
+    names = 'draft_m', 'gm_transverse_m', 'gm_longitudinal_m'
+    return {
+        **dict(zip(names, np.subtract(model, true).tolist())),
+        'gz_greatest_m': float(off.max()),
+        'gz_greatest_at_deg': float(HEEL_DEGREES[np.argmax(off)]),
+        f'gz_rms_to_{SMALL_HEEL:.0f}_deg_m': float(np.sqrt(np.mean(off[small] ** 2)))}
+
+
+def apart_warnings(boat, arms, exact):
+    """Return a sentence, in a tuple, where the righting arms of model and surface part."""
+    if exact is None or np.isnan([arms, exact]).any():
+        return ()
+    off = np.abs(arms - exact)
+    parted = np.flatnonzero(off > max(TOLD * exact.max(), ROUND_OFF))
+    if not len(parted):
+        return ()
+    worst = np.argmax(off)
+    kind = 'columns' if boat.hull.law == 'column' else 'probes'
+    return (f'The {kind} are not the hull from {HEEL_DEGREES[parted[0]]:.0f} degrees of heel on: '
+            f'their righting arm is up to {off[worst]:.3f} m off (at {HEEL_DEGREES[worst]:.0f} '
+            f'degrees {arms[worst]:.3f} m in place of {exact[worst] + 0.0:.3f} m); for a boat '
+            'that heels so far take hull.model: panels.',)
+
+
 def exact_heel_degrees(scene):
-    """Return up to which heel in degrees GZ is the real box's; None for any other hull."""
+    """
+    Return up to which heel in degrees GZ is that of the hull itself; None where none is promised.
+
+    Any on panels.  Of a box on columns until an edge dips or rises; None for any other hull.
+    """
     values, boat = scene.values, scene.boat
-    if values.get('hull.shape') != 'box' or not floats(boat):
+    if not floats(boat) or boat.hull.surface is None:
         return None
-    # One column across, or a law without columns, has no waterplane to heel with.
-    if values['hull.probes'][1] < 2 or values['probes.law'] != 'column':
+    if boat.hull.panels is not None:
+        return 180.0
+    if values['hull.shape'] != 'box' or values['probes.law'] != 'column':
         return None
-    _, beam, depth = values['hull.size']
-    return float(np.degrees(wall_sided_heel(beam, depth, depth / boat.floatiness)))
+    along, across = values['hull.probes']
+    # One column has no waterplane to heel with, nor to trim with.
+    if across < 2 or (along < 2 and trim(boat)):
+        return None
+    length, beam, depth = values['hull.size']
+    return float(np.degrees(wall_sided_heel(
+        beam, depth, depth / boat.floatiness, length, trim(boat))))
 
 
-def text(source, scene, result):
-    """Return the figures as lines for a person; ``source`` is the name of the scene's file."""
-    return '\n'.join([
-        f'{source}: {scene.boat.mass:.6g} kg, '
-        f'{_counted(len(scene.boat.hull.positions), "probe")}, law {scene.boat.hull.law}', '',
-        *_at_rest(result), '', *_motions(result), '',
-        *_steps(result, scene), '', *_righting(result), '', *_warnings(result)])
+def sea_figures(sea, periods):
+    """
+    Return what a boat of natural ``periods`` {name: s or None} should know of a `Sea`.
+
+    {name: number}, and ``meets``, the names of the motions that it excites; None in flat water.
+    """
+    if sea.ends is None:
+        return None
+    found = {'significant_height_m': sea.significant_height}
+    for name, row in zip(('shortest', 'longest'), sea.ends):
+        found[f'{name}_wave_m'] = float(2.0 * np.pi / np.hypot(*sea.wave_vector[row]))
+        found[f'{name}_wave_s'] = float(sea.waves[row, 1])
+    share = sea.waves[:, 0] ** 2 / np.sum(sea.waves[:, 0] ** 2)
+    found['meets'] = [name for name, period in periods.items() if period is not None and share[
+        np.abs(sea.waves[:, 1] - period) <= NEAR * period].sum() >= MUCH]
+    return found
 
 
-def _at_rest(result):
-    rows = (
-        ('draft', 'draft_m', 'm', 'depth of the deepest probe'),
-        ('floatiness', 'floatiness', '', 'greatest lift over weight; floats above 1'),
-        ('displacement', 'displacement_kg', 'kg', 'mass of the water that the hull displaces'),
-        ('GM transverse', 'gm_transverse_m', 'm',
-         'metacentric height; above 0 the boat rights itself in roll'),
-        ('GM longitudinal', 'gm_longitudinal_m', 'm', 'the same in pitch'))
-    yield 'At rest, level, in still water'
-    for name, key, unit, meaning in rows:
-        yield f'  {name:<16} {_number(result[key], 6):>10} {unit:<3} {meaning}'
-
-
-def _motions(result):
-    yield 'Small motions about rest    period s   damping ratio (1 = no overshoot)'
-    for name in MODES:
-        period, ratio = result[f'{name}_period_s'], result[f'{name}_damping_ratio']
-        yield f'  {name:<23} {_number(period, 5):>10}   {_number(ratio, 3):>10}'
-    yield '  The mass of water that moves along is not modelled: real hulls are slower.'
-
-
-def _steps(result, scene):
-    yield (f'Steps: {scene.rate:g} Hz with {scene.plan().integrator}, '
-           f'{_counted(result["substeps"], "substep")} in each period')
-    plain = result['step'] != 'compiled'
-    yield f'  the step is {result["step"]}{", some fifty times slower" if plain else ""}'
-    yield '  largest stable step for this boat:'
-    for name, limit in result['max_stable_step_s'].items():
-        said = {None: 'no limit', 0.0: 'never stable'}.get(limit) or f'{limit:.4g} s'
-        yield f'    {name:<18} {said}'
-
-
-def _righting(result):
-    heel, arms = result['gz_heel_deg'], result['gz_m']
-    yield 'Righting arm GZ in m over heel in degrees (above 0 rights the boat)'
-    if None in arms:
-        yield '  none: the boat sinks'
-        return
-    for start in range(0, len(heel), TABLE_COLUMNS):
-        row = slice(start, start + TABLE_COLUMNS)
-        yield '  heel ' + ' '.join(f'{angle:7.0f}' for angle in heel[row])
-        yield '  GZ   ' + ' '.join(f'{round(arm, 3) + 0.0:7.3f}' for arm in arms[row])
-    yield f'  {_range(heel, arms)}'
-    if result['gz_exact_to_deg'] is not None:
-        yield (f'  Up to {result["gz_exact_to_deg"]:.1f} degrees, where an edge dips or rises, '
-               'exactly that of the real box.')
-
-
-def _range(heel, arms):
-    """Return how far the boat rights itself from upright, and how strongly, as a sentence."""
-    lost = next((i for i, arm in enumerate(arms) if i and not arm > ROUND_OFF), None)
-    if lost == 1:
-        return 'Nothing rights the boat from upright.'
-    greatest = max(arms[:lost])
-    said = f'Greatest {greatest:.3f} m at {heel[arms.index(greatest)]:.0f} degrees'
-    if lost is None:
-        return f'{said}; rights the boat from any heel.'
-    start, arm, last = heel[lost - 1], arms[lost - 1], arms[lost]
-    vanishing = start + (heel[lost] - start) * arm / (arm - last)
-    return f'{said}; rights the boat up to {vanishing:.0f} degrees.'
-
-
-def _warnings(result):
-    if not result['warnings']:
-        return ['No warnings.']
-    return ['Warnings', *(textwrap.fill(sentence, 99, initial_indent='  - ',
-                                        subsequent_indent='    ', break_on_hyphens=False)
-                          for sentence in result['warnings'])]
-
-
-def _counted(count, noun):
-    return f'{count} {noun}{"" if count == 1 else "s"}'
-
-
-def _number(value, digits):
-    return '-' if value is None else f'{value:.{digits}g}'
+def _numbers(arms):
+    return [None if np.isnan(arm) else arm + 0.0 for arm in arms.tolist()]
 
 
 def main(arguments=None):
     """Run the program and return its exit code."""
     parser = command_line.scene_parser(PROGRAM, 'Print what a boat will do before it does it.')
     parser.add_argument('--json', action='store_true', help='print JSON, for programs')
+    parser.add_argument('--plot', metavar='FILE.png', type=Path,
+                        help='draw the righting arm over heel, of the model and of the hull')
     given = parser.parse_args(arguments)
 
     def report():
         scene = load_scene(given.scene)
+        if given.plot is not None:
+            command_line.check_picture('--plot', given.plot, ('.png',))
+            from . import righting_arm_plot
+            righting_arm_plot.draw(given.plot, scene.boat, Path(given.scene).stem)
         result = figures(scene)
-        print(json.dumps(result, indent=2, allow_nan=False) if given.json
-              else text(given.scene, scene, result))
+        if given.json:
+            print(json.dumps(result, indent=2, allow_nan=False))
+            return
+        print(text(given.scene, scene, result))
+        if given.plot is not None:
+            print(f'\nwrote {given.plot}')
 
     return command_line.run(PROGRAM, report)
 

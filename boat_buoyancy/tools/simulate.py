@@ -99,15 +99,9 @@ def check_outputs(arguments):
     for name, path, endings in (('--plot', arguments.plot, plot.ENDINGS),
                                 ('--animate', arguments.animate, animate.ENDINGS)):
         if path is not None:
-            if path.suffix.lower() not in endings:
-                raise ValueError(f'{name}: expected a file name that ends in '
-                                 f'{" or ".join(endings)}, got {str(path)!r}')
-            command_line.require_extra('chart', name, 'matplotlib')
-    for path in filter(None, (arguments.csv, arguments.plot, arguments.animate)):
-        existed = path.exists()
-        path.open('ab').close()
-        if not existed:
-            path.unlink()
+            command_line.check_picture(name, path, endings)
+    if arguments.csv is not None:
+        command_line.check_writable(arguments.csv)
 
 
 def summary(arguments, simulation, run, seconds):

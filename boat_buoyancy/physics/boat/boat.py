@@ -129,6 +129,17 @@ class Boat:
         return self if hull is self.hull else replace(self, hull=hull)
 
     @cached_property
+    def on_surface(self) -> 'Boat | None':
+        """
+        Return the boat with its hull's surface, as it is, for panels; None where there is none.
+
+        In still water it is the boat with any other panels, and of fewer.
+        """
+        if self.hull.surface is None or self.hull.panels is self.hull.surface:
+            return None if self.hull.surface is None else self
+        return replace(self, hull=replace(self.hull, panels=self.hull.surface))
+
+    @cached_property
     def size(self) -> float:
         """Return how far in m the farthest end of a probe or corner is from the centre of mass."""
         return float(max(np.max(np.linalg.norm(self.probe_offsets, axis=1) + self.hull.height),

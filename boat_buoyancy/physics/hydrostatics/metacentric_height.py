@@ -22,8 +22,8 @@ def metacentric_heights(boat):
     """
     Return the transverse and longitudinal metacentric heights GM in m of a boat at rest.
 
-    The slope of the righting arms there, free to rise and sink.  None, None for a boat that does
-    not float.
+    The slope of the righting arms there about level axes, free to rise and sink.  None, None for
+    a boat that does not float.
     """
     if not floats(boat):
         return None, None

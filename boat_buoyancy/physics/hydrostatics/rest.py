@@ -76,6 +76,8 @@ def rest_attitude(boat):
 def _rest_attitude(boat):
     if not floats(boat):
         return 0.0, 0.0
+    if boat.hull.panels is not None and boat is not boat.on_surface:
+        return rest_attitude(boat.on_surface)
     orientation, before, longest = (0.0, 0.0, 0.0, 1.0), np.zeros(2), LONGEST_TURN
     for turns in range(MAX_TURNS):
         state = State(np.array([0.0, 0.0, _floating_height(boat, orientation)]), orientation)

@@ -37,34 +37,36 @@ def flotation_warnings(boat):
     if not rest.floats(boat):
         return (_sinking(boat),)
     if rest.rest_attitude(boat) is None:
-        return ('The boat finds no rest: it starts level, turns away from that and goes on '
-                'turning; give it more or wider probes, or lower boat.center_of_mass.',)
+        return ('The boat finds no rest: put into the water level it turns, and goes on turning; '
+                'lower boat.center_of_mass, or spread the probes wider.',)
+    sentences = [*_overturning(boat), *_listing(boat)]
+    if boat.hull.panels is None:
+        sentences += _filled(boat)
+    return tuple(sentences)
+
+
+def _filled(boat):
+    """Yield a sentence for probes that are full or dry where the boat rests."""
     level, settled = (_shares(boat, state) for state in (
         rest.floating_state(boat), rest.rest_state(boat)))
-    carries = boat.hull.max_force > 0.0
-    full = carries & (settled >= 1.0 - NEGLIGIBLE)
-    # The sides of a shape may well be dry.
-    left = carries & (settled <= 0.0) & (level > 0.0) & (boat.hull.surface is None)
-    sentences = [*_overturning(boat), *_listing(boat)]
-    if boat.hull.panels is not None:
-        return tuple(sentences)
+    carries, probes = boat.hull.max_force > 0.0, boat.hull.surface is None
+    # Of a shape some columns may well be under water, or its sides dry, as it lies level.
+    full = carries & (settled >= 1.0 - NEGLIGIBLE) & (probes | (level < 1.0 - NEGLIGIBLE))
+    left = carries & (settled <= 0.0) & (level > 0.0) & probes
     if not (carries & (settled > 0.0) & (settled < 1.0 - NEGLIGIBLE)).any():
-        sentences.append(
-            'No probe is at the waterline at rest: each is either full or dry, so nothing holds '
-            'the boat at its height; give the probes other heights (probes.positions) or make '
-            'them fill more slowly (lower probes.stiffness).')
+        yield ('No probe is at the waterline at rest: each is either full or dry, so nothing '
+               'holds the boat at its height; put some higher or lower (probes.positions), or '
+               'have them fill over a greater depth (lower probes.stiffness).')
     if full.any():
-        sentences.append(
-            f'A probe is full at rest ({_named(boat, full)}): it gives all it can and neither '
-            'trims nor rights the boat any further, so the boat may list or capsize; raise its '
-            'weight in probes.weights, raise probes.floatiness (a hull: enlarge hull.size), or '
-            'move boat.center_of_mass away from it.')
+        raised = ('raise its weight in probes.weights, raise probes.floatiness' if probes
+                  else 'make the hull deeper or wider')
+        yield (f'A probe is full at rest ({_named(boat, full)}): it gives all it can and neither '
+               'trims nor rights the boat any further, so the boat may list or capsize; '
+               f'{raised}, or move boat.center_of_mass away from it.')
     if left.any():
-        sentences.append(
-            f'A probe is out of the water at rest ({_named(boat, left)}): it holds nothing until '
-            'it dips in; lower its weight in probes.weights (a hull: make hull.size smaller), or '
-            'move boat.center_of_mass towards it.')
-    return tuple(sentences)
+        yield (f'A probe is out of the water at rest ({_named(boat, left)}): it lifts nothing '
+               'until it dips in; lower its weight in probes.weights, or move '
+               'boat.center_of_mass towards it.')
 
 
 def dry_thruster_warnings(boat, thrusters):
@@ -83,14 +85,14 @@ def dry_thruster_warnings(boat, thrusters):
 
 def _sinking(boat):
     """Return the sentence for a boat without a draft."""
-    cure = 'raise probes.floatiness above 1 (a hull: enlarge hull.size), or lower boat.mass'
+    cure = ('raise probes.floatiness above 1' if boat.hull.surface is None
+            else 'make the hull larger, or lower boat.mass')
     if boat.floatiness >= 1.0 - rest.LIFT_TOLERANCE:
         return ('The boat neither floats nor sinks: its floatiness is 1, so it has no draft, '
-                'starts with every probe full and stays wherever it is put under water; '
-                f'{cure}.')
+                f'starts just under water and stays at whatever depth it is put; {cure}.')
     return (f'The boat sinks: its floatiness is {boat.floatiness:.6g}, the part of its weight '
-            'that all its probes lift when full, so it starts with every probe full and goes '
-            f'down from there; {cure}.')
+            'that it lifts with all of the hull under water, so it starts just under water and '
+            f'goes down from there; {cure}.')
 
 
 def _overturning(boat):
@@ -122,10 +124,13 @@ def _listing(boat):
                   (torque[0] / boat.weight, 'to port', 'to starboard'))
               if abs(arm) > NEGLIGIBLE * boat.size]
     turned = 'turns over and rests' if rest.turns_over(boat) else 'rests'
-    yield (f'Level is not an equilibrium: the lift acts {" and ".join(places)} of the centre of '
-           f'mass, so the boat {turned} at roll {roll:g} and pitch {pitch:g} degrees (positive '
-           'roll is starboard down, positive pitch bow down); move boat.center_of_mass there, or '
-           'change probes.weights if there are any.')
+    sides = ' and '.join(side for side, angle in (
+        ('starboard' if roll > 0.0 else 'port', roll), ('bow' if pitch > 0.0 else 'stern', pitch))
+        if angle)
+    weights = ', or change probes.weights' if boat.hull.surface is None else ''
+    yield (f'The boat does not lie level: held level, its lift acts {" and ".join(places)} of its '
+           f'centre of mass, so the boat {turned} at roll {roll:g} and pitch {pitch:g} degrees '
+           f'({sides} down); to level it, move boat.center_of_mass there{weights}.')
 
 
 def _shares(boat, state):

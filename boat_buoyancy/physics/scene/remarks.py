@@ -18,7 +18,6 @@ import numpy as np
 
 from . import parameters
 from .wave_sampling import sampling_warnings
-from ..boat.hull import MAX_PANELS, PANELS_A_WAVE
 from ..hydrostatics.warnings import dry_thruster_warnings
 
 # Somewhat more than 2 pi, so that 6.2832 is one.
@@ -78,7 +77,7 @@ def without_use(in_force):
 
 def remarks(boat, sea, thrusters, given, in_force):
     """Return sentences about what was surely not meant, but for how the boat lies, in a tuple."""
-    warnings = [*panel_warnings(boat, sea)]
+    warnings = []
     drag = [name for name in ('damping.linear', 'damping.quadratic') if any(in_force[name])]
     retained = [name for name in ('damping.linear_retention', 'damping.angular_retention')
                 if min(in_force[name]) < 1.0]
@@ -105,20 +104,6 @@ def remarks(boat, sea, thrusters, given, in_force):
                             'are in radians, and this looks like degrees.')
     return (*warnings, *sea_warnings(sea), *sampling_warnings(boat, sea, in_force),
             *dry_thruster_warnings(boat, thrusters))
-
-
-def panel_warnings(boat, sea):
-    """Return a sentence on panels that are too large for a sea, in a tuple."""
-    hull = boat.hull
-    if hull.panels is None or hull.panel_size or sea.is_flat:
-        return ()
-    needed = sea.shortest_length / PANELS_A_WAVE
-    if needed >= hull.finest_panel:
-        return ()
-    return (f'The panels are too large for the shortest waves: {sea.shortest_length:.3g} m long, '
-            f'they want edges of at most {needed:.2g} m, and more panels than {MAX_PANELS} are '
-            f'not made, so edges are up to {hull.panels.longest_edge:.2g} m and the short waves '
-            'push the boat wrongly; take longer waves or a smaller hull.',)
 
 
 def sea_warnings(sea):

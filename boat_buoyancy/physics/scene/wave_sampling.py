@@ -14,15 +14,22 @@
 
 """Whether a hull's probes or panels are close enough to feel the waves of its sea as they are."""
 
+from functools import lru_cache
+import math
+
 import numpy as np
 
-from ..boat.hull import PANELS_A_WAVE
+from ..boat.hull import MAX_PANELS, PANELS_A_WAVE
 from ..sea.waves import KX, KY, START
 
 # Error of the lift in waves, rms over the sea's waves in parts of their amplitude: what is told
 # of, and what the advice comes to.
 TOLD, WANTED = 0.15, 0.05
 MOST_PROBES = 100
+# Of a wave's length, what the length or the beam of a turning boat sees of it: cosines.
+HEADINGS = np.linspace(0.0, 1.0, 32)
+
+_gauss_points = lru_cache(maxsize=MOST_PROBES)(np.polynomial.legendre.leggauss)
 
 
 def sampling_warnings(boat, sea, values):
@@ -39,11 +46,7 @@ def sampling_warnings(boat, sea, values):
     shortest = f'the shortest wave that matters is {sea.shortest_length:.3g} m long'
     hull = boat.hull
     if hull.panels is not None:
-        needed = sea.shortest_length / PANELS_A_WAVE
-        if hull.panel_size <= needed:
-            return ()
-        return (f'The panels are too large for the waves: {shortest}, and hull.panel_size is '
-                f'{hull.panel_size:g} m; take {needed:.2g} m or less, or 0 to have it chosen.',)
+        return _between_corners(hull, sea.shortest_length, shortest)
     if hull.surface is None:
         return _between_probes(hull.positions, amplitude, k, shortest)
     sizes = np.ptp(hull.surface.extent, axis=0)[:2]
@@ -53,10 +56,31 @@ def sampling_warnings(boat, sea, values):
     errors = [_error(count, size, amplitude, k) for count, size in zip(given, sizes)]
     if max(errors) <= TOLD:
         return ()
-    enough = [max(count, _enough(size, amplitude, k)) for count, size in zip(given, sizes)]
-    return (f'The probes are too far apart for the waves: {shortest}, and with hull.probes '
-            f'{list(given)} the lift is wrong by {max(errors):.0%} of the amplitude (rms); take '
-            f'hull.probes: {enough}, or hull.model: panels.',)
+    enough = [_enough(count, size, amplitude, k) for count, size in zip(given, sizes)]
+    panels = sea.shortest_length / PANELS_A_WAVE >= hull.finest_panel
+    cures = [f'hull.probes: {enough}'] if None not in enough else []
+    cures += ['hull.model: panels'] if panels else []
+    return (f'The probes are too far apart for the waves: {shortest}, and on hull.probes: '
+            f'{list(given)} the lift of the waves is off by up to {max(errors):.0%} of their '
+            f'amplitude (rms); take {", or ".join(cures) or "longer waves or a smaller hull"}.',)
+
+
+def _between_corners(hull, length, shortest):
+    """Return the sentence for panels that are too large for a wave of ``length`` m."""
+    needed, longest = length / PANELS_A_WAVE, hull.panels.longest_edge
+    if longest <= needed:
+        return ()
+    cure = (f'take hull.panel_size: {_rounded_down(needed)} or less, or 0 to have it chosen'
+            if needed >= hull.finest_panel else
+            f'take longer waves or a smaller hull, as more panels than {MAX_PANELS} are not made')
+    return (f'The panels are too large for the waves: {shortest} and wants edges of at most '
+            f'{needed:.2g} m, and the panels have edges of up to {longest:.2g} m; {cure}.',)
+
+
+def _rounded_down(value):
+    """Return a number as text of two digits that stand for no more than it."""
+    digit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return f'{math.floor(value / digit) * digit:.2g}'
 
 
 def _error(count, size, amplitude, k):
@@ -64,18 +88,28 @@ def _error(count, size, amplitude, k):
     Return the rms error of the lift of ``count`` Gauss columns on ``size`` m, by amplitude.
 
     A wave lifts a length L by sin(kL/2)/(kL/2) of its amplitude, and the columns by their mean.
+    Of the worst heading: at a single one, too few columns may be right by chance.
     """
-    half = 0.5 * size * k
-    places, weights = np.polynomial.legendre.leggauss(count)
-    found = np.cos(np.outer(half, places)) @ weights / 2.0
-    away = found - np.sinc(half / np.pi)
-    return float(np.sqrt((amplitude * away) @ (amplitude * away) / (amplitude @ amplitude)))
+    half = 0.5 * size * np.outer(HEADINGS, k)
+    found = np.zeros_like(half)
+    for place, weight in zip(*_gauss_points(count)):
+        found += 0.5 * weight * np.cos(half * place)
+    away = amplitude * (found - np.sinc(half / np.pi))
+    return float(np.sqrt((away ** 2).sum(axis=1).max() / (amplitude @ amplitude)))
 
 
-def _enough(size, amplitude, k):
-    """Return how many columns on ``size`` m it takes, at most `MOST_PROBES`."""
-    return next((count for count in range(1, MOST_PROBES)
-                 if _error(count, size, amplitude, k) <= WANTED), MOST_PROBES)
+def _enough(count, size, amplitude, k):
+    """Return how many columns on ``size`` m, from ``count`` on, are enough; None where none is."""
+    few, enough = count - 1, MOST_PROBES
+    if _error(enough, size, amplitude, k) > WANTED:
+        return None
+    while enough - few > 1:
+        middle = (few + enough) // 2
+        if _error(middle, size, amplitude, k) > WANTED:
+            few = middle
+        else:
+            enough = middle
+    return enough
 
 
 def _between_probes(positions, amplitude, k, shortest):
@@ -90,4 +124,4 @@ def _between_probes(positions, amplitude, k, shortest):
         return ()
     return (f'The probes are too far apart for the waves: {shortest}, and neighbours are up to '
             f'{widest:.3g} m apart, more than half of that, so waves pass between them; add '
-            'probes in between (probes.positions).',)
+            'probes in between (probes.positions), or take longer waves.',)

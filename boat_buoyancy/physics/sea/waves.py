@@ -97,7 +97,8 @@ def wavenumber(angular_frequency, depth=0.0, gravity=9.81):
     return x / depth
 
 
-# The waves that together carry this part of a sea's energy, the shortest, may be left out.
+# The waves that together carry this part of a sea's energy, the shortest or the longest, do not
+# count.
 NEGLIGIBLE_ENERGY = 0.01
 
 
@@ -114,16 +115,26 @@ class Water:
         return (x[..., None] * kx + y[..., None] * ky - time[..., None] * frequency + phase)
 
     @cached_property
-    def shortest_length(self) -> float:
-        """Return the length in m of the shortest wave that counts, infinite in flat water."""
+    def ends(self) -> tuple[int, int] | None:
+        """Return the numbers of the shortest and the longest wave that count; None when flat."""
         amplitude = np.maximum(np.abs(self.table[START]),
                                np.abs(self.table[START] + self.table[RISE]))
+        if not amplitude.any():
+            return None
+
+        def first(order):
+            energy = np.cumsum(amplitude[order] ** 2)
+            return int(order[np.argmax(energy >= NEGLIGIBLE_ENERGY * energy[-1])])
+
         k = np.hypot(self.table[KX], self.table[KY])
-        order = np.argsort(-k)
-        energy = np.cumsum(amplitude[order] ** 2)
-        counts = energy >= NEGLIGIBLE_ENERGY * energy[-1:]
-        counts &= amplitude[order] > 0.0
-        return float(2.0 * np.pi / k[order][counts].max()) if counts.any() else np.inf
+        return first(np.argsort(-k)), first(np.argsort(k))
+
+    @cached_property
+    def shortest_length(self) -> float:
+        """Return the length in m of the shortest wave that counts, infinite in flat water."""
+        if self.ends is None:
+            return np.inf
+        return float(2.0 * np.pi / np.hypot(*self.table[[KX, KY], self.ends[0]]))
 
     def elevation(self, x: ArrayLike, y: ArrayLike, time: ArrayLike) -> np.ndarray:
         """Return the height of the surface in m at world ``x``, ``y`` m and ``time`` s."""
@@ -191,6 +202,11 @@ class Sea(Water):
     def is_flat(self) -> bool:
         """Return True when there are no waves at all."""
         return len(self.waves) == 0
+
+    @property
+    def significant_height(self) -> float:
+        """Return 4 sqrt(sum a^2 / 2) in m."""
+        return float(4.0 * np.sqrt(0.5 * np.sum(self.waves[:, 0] ** 2)))
 
     @cached_property
     def table(self) -> np.ndarray:
