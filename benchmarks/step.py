@@ -21,19 +21,23 @@ else the machine does can only add.
 """
 
 import argparse
+from dataclasses import replace
 import math
 import os
 import subprocess
 import sys
 import time
 
-from boat_buoyancy.physics import Fleet, load_scene, Sea, State
+from boat_buoyancy.physics import Fleet, load_scene, Sea, Simulation, State
+from boat_buoyancy.physics.boat.surface import box_surface, Surface
 from boat_buoyancy.physics.compiled import kind
 import numpy as np
 
 WAVES = [[0.2, 5.0, 0.0, 0.0], [0.1, 3.3, 0.5, 1.0], [0.1, 2.7, -0.4, 2.0],
          [0.05, 2.1, 1.0, 3.0]]
 MANY, MOST = 1000, 10000
+# Panels of the box, and the longest edge of so many on a cube of 1 m.
+PANELS = {12: 1.5, 48: 0.75, 192: 0.375, 768: 0.1875}
 RUN_SECONDS = 10.0
 # A block of angles that stays in the cache.
 IN_CACHE = 16384
@@ -52,12 +56,26 @@ def simulation(integrator='leapfrog', waves=4):
     return made
 
 
-def fleet(boats, waves, threads=1):
-    """Return a fleet of default boxes spread over the water."""
+def fleet(boats, waves, threads=1, boat=None):
+    """Return a fleet of default boxes, or of a ``boat`` like them, spread over the water."""
     scene, random = load_scene({}), np.random.default_rng(8)
     position = np.tile(scene.start.position, (boats, 1))
     position[:, :2] = random.uniform(-100.0, 100.0, (boats, 2))
-    return Fleet([scene.boat] * boats, [sea(waves)] * boats, State(position), threads=threads)
+    return Fleet([boat or scene.boat] * boats, [sea(waves)] * boats, State(position),
+                 threads=threads)
+
+
+def panelled(panels):
+    """Return the default box with so many panels."""
+    scene, cube = load_scene({}), box_surface((1.0, 1.0, 1.0)).refined(PANELS[panels])
+    surface = Surface(cube.corners * scene.values['hull.size'], cube.triangles)
+    return replace(scene.boat, hull=replace(scene.boat.hull, panels=surface))
+
+
+def run_of(boat, waves):
+    """Return the run of a boat like the default box, for `best_of`."""
+    made = Simulation(boat, sea(waves), load_scene({}).start)
+    return (lambda: made.run(RUN_SECONDS)), 1
 
 
 def trigonometry(angles):
@@ -102,6 +120,11 @@ def measure(rounds):
     for waves in (4, 64):
         cases[f'{MANY} boats, {waves} waves'] = (fleet(MANY, waves).step, 3)
         cases[f'trigonometry, {waves} waves'] = (trigonometry(4 * waves * MANY), 3)
+    cases['columns, flat'] = run_of(load_scene({}).boat, 0)
+    cases['12 panels, flat'] = run_of(panelled(12), 0)
+    for panels in (48, 192, 768):
+        cases[f'{panels} panels, 4 waves'] = run_of(panelled(panels), 4)
+    cases[f'{MANY} boats of 48 panels'] = (fleet(MANY, 4, boat=panelled(48)).step, 3)
     for threads in (1, 2):
         cases[f'{threads} threads'] = (fleet(MOST, 4, threads).step, 1)
     return best_of(cases, rounds)
@@ -136,6 +159,14 @@ def main():
          best[f'{MANY} boats, 64 waves'] / best['trigonometry, 64 waves'], 0.15),
         ('10 000 boats, one thread over two', best['1 threads'] / best['2 threads'], -1.8),
         ('implicit over leapfrog, in `sim.run`', best['implicit'] / best['leapfrog'], 1.7),
+        ('a box of 12 panels in flat water over its 4 columns, in `sim.run`',
+         best['12 panels, flat'] / best['columns, flat'], 3.0),
+        ('192 panels, 4 waves, a step in `sim.run`, calls',
+         best['192 panels, 4 waves'] / periods / best['call'], 20.0),
+        ('768 panels over 192, 4 waves, in `sim.run`',
+         best['768 panels, 4 waves'] / best['192 panels, 4 waves'], 4.0),
+        ('1000 boats of 48 panels, 4 waves, over 1000 steps of one in `sim.run`',
+         best[f'{MANY} boats of 48 panels'] / (MANY * best['48 panels, 4 waves'] / periods), 1.2),
         ('one boat in plain Python, calls', plain_step(max(3, rounds // 5)), 450.0)]
     print(f'One call of `numpy.add` on four elements: {1e6 * best["call"]:.3f} us; the step is '
           f'{kind()}; {len(os.sched_getaffinity(0))} processors.\n')

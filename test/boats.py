@@ -19,9 +19,11 @@ The reference boat has 1000 kg on four probes of 4905 N/m, so it floats 0.5 m de
 sqrt(19620 / 1000) = 4.42944692 rad/s.
 """
 
+import math
 import warnings
 
 from boat_buoyancy.physics.boat.boat import Boat, Damping
+from boat_buoyancy.physics.boat.clipping import level_for, submerged
 from boat_buoyancy.physics.boat.columns import box_hull
 from boat_buoyancy.physics.boat.hull import Hull
 from boat_buoyancy.physics.boat.state import center_of_mass_state, PARTS, State
@@ -180,3 +182,16 @@ def crossings(time, value, rate, *, rising):
                   if abs(root.imag) < 1e-9 and -1e-9 < root.real < 1.0 + 1e-9]
         found.append(time[i] + h * inside[0])
     return np.array(found)
+
+
+def righting_arm(triangles, center, volume, heel):
+    """
+    Return the righting arm in m of a surface (n, 3, 3) m that displaces ``volume`` m^3, trim 0.
+
+    ``center`` m, the centre of mass above the origin; ``heel`` rad.
+    """
+    c, s = math.cos(heel), math.sin(heel)
+    turned = (triangles - [0.0, 0.0, center]) @ np.array(
+        [[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+    wet, moment = submerged(turned - [0.0, 0.0, level_for(turned, volume)])
+    return -moment[1] / wet

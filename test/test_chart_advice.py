@@ -19,10 +19,10 @@ from pathlib import Path
 
 from boat_buoyancy.physics.hydrostatics.rest import rest_state
 from boat_buoyancy.physics.scene.scene import load_scene
-from boat_buoyancy.tools.chart import advice, pareto_front, settings
-from boat_buoyancy.tools.chart.settings import Setting, Trial
+from boat_buoyancy.tools.chart import advice, pareto_front, settings, trial as chart_trial
+from boat_buoyancy.tools.chart.settings import Setting
 from boat_buoyancy.tools.chart.stretch import stretches
-import numpy as np
+from boat_buoyancy.tools.chart.trial import Result, Trial
 import pytest
 import yaml
 
@@ -44,25 +44,28 @@ COSTS = {'leapfrog': 30e-6, 'implicit': 55e-6, 'symplectic_euler': 40e-6, 'rk4':
 
 @pytest.fixture(autouse=True, scope='module')
 def solved_once():
-    """Solve the truth of every stretch once for all tests."""
+    """Solve the truth of every stretch once for all tests, on half as fine panels."""
     known, solve = {}, Trial.of
 
     def remembered(stretch):
-        key = repr(stretch), settings.HULL
+        key = repr(stretch)
         if key not in known:
             known[key] = solve(stretch)
         return known[key]
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Trial, 'of', staticmethod(remembered))
+        patch.setattr(chart_trial, 'FINEST', 4)
+        patch.setattr(settings, 'FINER', (2,))
         yield
 
 
-def known_costs(trial):
+def known_costs(stretch):
     """Return step costs that do not depend on what else the machine does."""
-    return {(probes, name): cost * (1.0 + 0.005 * Setting(name, 1.0, probes).probe_count)
-            for probes in settings.choices(trial.stretch.given)
-            for name, cost in COSTS.items()}
+    panels = {None: 0.0, 0.0: 0.5}
+    return {(model, name): cost * (1.0 + 0.05 * Setting(name, 1.0, *model).probe_count
+                                   + panels.get(model[1], 10.0))
+            for model in settings.choices(stretch.given) for name, cost in COSTS.items()}
 
 
 def advise(given, tolerance):
@@ -91,7 +94,7 @@ def test_advised_setting_meets_the_tolerance_on_fresh_runs(case):
     given, tolerance, found, trials = case
     assert found.limit == ''
     assert found.best.error <= tolerance
-    assert found.checked <= tolerance
+    assert found.best.checked <= tolerance
     for trial in trials:
         assert trial.error(found.best.setting) <= tolerance
 
@@ -115,6 +118,9 @@ def test_lines_take_the_place_of_those_of_a_shipped_file(tmp_path):
             lines.insert(lines.index('  ros__parameters:') + 1, f'    {line}')
         elif name == 'hull':
             assert len(places) == 1
+        elif not places:
+            assert name == 'model'
+            lines.insert(lines.index('    hull:') + 1, f'    {line}')
         else:
             lines[places[0]] = f'    {line}'
     path = tmp_path / 'barge.yaml'
@@ -140,47 +146,105 @@ def test_advised_lines_are_a_parameter_file_that_runs(case, tmp_path):
 
 
 def test_a_hull_of_too_few_probes_is_not_advised_however_small_the_step():
-    # Four probes under 4 m of boat in waves 7.5 m long: more of them is what it takes.
+    # Four probes under 4 m of boat in waves 7.5 m long: more of them or panels is what it takes.
     given, tolerance = SCENES['regular']
     found = advise(load_scene(given).given, tolerance)
-    assert found.best.setting.probe_count > 4
+    assert found.best.setting.model == 'panels' or found.best.setting.probe_count > 4
     trial = Trial.of(stretches(load_scene(given).given)[0])
     assert trial.error(Setting('leapfrog', 200.0, (2, 2))) > tolerance
 
 
-def test_an_advised_setting_that_is_started_with_a_warning_says_so():
+def test_no_setting_is_advised_that_is_started_with_a_warning(monkeypatch):
     # Coarse enough for a tolerance of 20 cm, and too coarse to come to rest with.
     given = load_scene(SCENES['irregular'][0]).given
     found = advise(given, 0.2)
-    expected = load_scene({**given, **found.best.setting.values()}).simulation().warnings
-    assert any('will rattle at rest' in sentence for sentence in expected)
-    assert found.warnings == expected
-    lines = advice.report('scene.yaml', found, 0.2)
-    assert [line for line in lines if line.startswith('It will be started with a warning: ')
-            and 'will rattle at rest' in line]
+    # Its sea has waves that pass between its four probes, which no setting changes.
+    spared = load_scene({**given, 'rate': 1000.0}).simulation().warnings
+    for setting in (found.best.setting, found.cheaper.setting):
+        assert load_scene({**given, **setting.values()}).simulation().warnings == spared
+    with monkeypatch.context() as patch:
+        patch.setattr(settings, 'acceptance', lambda given: lambda setting: True)
+        coarser = advise(given, 0.2).best
+    assert coarser.cpu < found.best.cpu
+    assert any('will rattle at rest' in sentence for sentence in load_scene(
+        {**given, **coarser.setting.values()}).simulation().warnings)
+
+
+def test_a_warning_that_no_setting_spares_a_scene_keeps_it_from_none():
+    # The waves break, whatever the step.
+    given = load_scene({'sea.waves': [0.3, 1.5, 0.4, 0.0], 'hull.probes': [8, 8]}).given
+    fine = Setting('leapfrog', 128.0, (8, 8))
+    warnings = load_scene({**given, **fine.values()}).simulation().warnings
+    assert ['steeper than water can be' in sentence for sentence in warnings] == [True]
+    accepts = settings.acceptance(given)
+    assert accepts(fine)
+    assert not accepts(replace(fine, rate=8.0))
+    assert not accepts(Setting('leapfrog', 128.0, (2, 2)))
+    assert accepts(Setting('leapfrog', 128.0, (2, 2), 0.0))
+
+
+def test_columns_are_advised_where_they_will_do_and_panels_where_only_they_will():
+    # Four columns would let the box come to rest on its side.
+    given = load_scene({'start.orientation': [1.3, 0.0, 0.0]}).given
+    found = advise(given, 0.06)
+    assert found.limit == ''
+    assert found.best.setting.model == 'panels'
+    given = load_scene({'start.orientation': [0.1, 0.0, 0.0]}).given
+    assert advise(given, 0.02).best.setting.model == 'columns'
+
+
+def test_the_game_loop_is_not_named_where_the_default_is_as_cheap_within_the_noise():
+    def ordered(game_loop):
+        seconds = {((None, None), 'leapfrog'): 1e-6, ((None, None), 'symplectic_euler'): game_loop}
+        return [setting.integrator for _, setting in settings.candidates(seconds, (10.0,))]
+
+    assert ordered(0.95e-6) == ['leapfrog', 'symplectic_euler']
+    assert ordered(0.8e-6) == ['symplectic_euler', 'leapfrog']
+
+
+@pytest.mark.parametrize('error, tolerance, text', [
+    (0.01004, 0.01, '0.01004'), (0.00996, 0.01, '0.01'), (0.0121, 0.0123, '0.012'),
+    (0.0125, 0.0123, '0.013'), (0.0123001, 0.0123, '0.0123001'), (0.037, 0.01, '0.037')])
+def test_an_error_is_told_so_that_one_sees_on_which_side_of_the_tolerance_it_is(
+        error, tolerance, text):
+    assert advice.metres(error, tolerance) == text
+
+
+def test_a_setting_that_misses_the_tolerance_is_never_told_to_meet_it():
+    best, cheaper = (Result(Setting('leapfrog', rate, (2, 2)), error, cpu, rate, error)
+                     for rate, error, cpu in ((11.0, 0.009, 2e-6), (8.0, 0.010004, 1e-6)))
+    found = advice.Advice(best, cheaper, None, '', 'its waves', 'another stretch', 20.0)
+    said = '\n'.join(advice.report('scene.yaml', found, 0.01))
+    assert 'error 0.010004 m' in said and 'error 0.01 m' not in said
 
 
 def test_what_limits_is_said_when_nothing_meets_the_tolerance():
     given = load_scene(SCENES['irregular'][0]).given
-    found = advice.advise(given, 1e-4, rates=RATES[:4], step_costs=known_costs)
-    assert found.limit.startswith('The time step limits it: 8 Hz is the finest tried')
-    lines = advice.report('scene.yaml', found, 1e-4)
-    assert lines[0] == 'scene.yaml: no setting meets 0.0001 m.'
+    found = advice.advise(given, 1e-5, rates=RATES[:5], step_costs=known_costs)
+    assert found.limit.startswith('The time step limits it: the finest that was tried and starts '
+                                  'without a warning is rk4 16 Hz, and twice as many steps leave ')
+    lines = advice.report('scene.yaml', found, 1e-5)
+    assert lines[0] == 'scene.yaml: no setting meets 1e-05 m.'
     assert 'integrator' in '\n'.join(lines)
 
 
 def test_a_tolerance_below_what_is_known_of_the_true_motion_is_refused():
     given = load_scene(SCENES['regular'][0]).given
     found = advise(given, 1e-9)
-    assert found.limit.startswith('The true motion limits it: the hull as 16 x 16 columns')
+    assert found.limit.startswith('The true motion limits it: by the hull as 6144 panels and as '
+                                  '1536 it is known to ')
     assert found.best is None
     assert len(advice.report('scene.yaml', found, 1e-9)) == 2
 
 
-def test_probes_are_named_when_they_limit(monkeypatch):
-    monkeypatch.setattr(settings, 'PROBES', ((2, 2),))
-    found = advise(load_scene(SCENES['regular'][0]).given, 2e-3)
-    assert found.limit.startswith('The probes limit it: 2 x 2 of them miss the motion')
+def test_the_model_of_the_hull_is_named_when_it_limits(monkeypatch):
+    monkeypatch.setattr(settings, 'COLUMNS', ((4, 2),))
+    monkeypatch.setattr(settings, 'PANEL_PROBES', ())
+    monkeypatch.setattr(settings, 'panel_sizes', lambda given: ())
+    given = load_scene({**SCENES['regular'][0], 'hull.probes': [4, 2]}).given
+    found = advise(given, 1e-3)
+    assert found.limit.startswith(
+        'The model of the hull limits it: 4x2 columns miss the motion of the hull itself by')
 
 
 def test_a_scene_in_which_nothing_moves_is_pushed():
@@ -212,14 +276,26 @@ def test_front_is_what_nothing_else_beats_and_can_be_typed_in():
     for row in best:
         cheaper = [other.error for other in rows if other.cpu < row.cpu and other.front]
         assert all(error > row.error for error in cheaper)
-        load_scene({**given, 'integrator': row.integrator, 'rate': row.rate, 'substeps': 1,
-                    'hull.probes': [int(n) for n in row.placement.split('x')]}).simulation()
+        assert load_scene({**given, **pareto_front.setting_of(row).values()}
+                          ).simulation().warnings == ()
 
 
-def test_truth_of_a_hull_is_the_limit_of_ever_more_columns():
+def test_the_setting_of_a_row_is_the_one_that_was_measured():
+    items = pareto_front.scene_items({'sea.waves': [0.12, 2.2, 0.4, 0.0]})
+    found = [(Setting('leapfrog', 8.0, (4, 2), size), 0.1) for size in (None, 0.0)]
+    rows = pareto_front.rows('scene', items, found, True)
+    assert {pareto_front.setting_of(row) for row in rows} == {setting for setting, _ in found}
+    assert [(row.model, row.probes, row.panels) for row in rows] == [
+        ('columns', 8, 0), ('panels', 8, 384)]
+
+
+def test_truth_of_a_hull_is_the_limit_of_ever_finer_panels():
     given = load_scene(SCENES['regular'][0]).given
     trial = Trial.of(stretches(given)[0])
-    errors = [trial.error(Setting('rk4', 64.0, probes)) for probes in ((2, 2), (4, 4), (8, 8))]
-    assert errors[0] > 4 * errors[1] > 16 * errors[2]
-    assert trial.own_error < errors[2]
-    assert np.isfinite(errors).all()
+    errors = [trial.error(Setting('rk4', 64.0, (8, 8), size))
+              for size in settings.panel_sizes(given)]
+    # As the square of the edge, 1 and 1/2 where that of the truth is 1/4.
+    assert errors[0] / errors[1] == pytest.approx((1 - 1 / 16) / (1 / 4 - 1 / 16), rel=0.1)
+    assert trial.own_error == pytest.approx(errors[1] / 3.0, rel=0.1)
+    # Columns come to something else: what the surface does between them.
+    assert trial.error(Setting('rk4', 64.0, (8, 8))) > 3.0 * errors[1]

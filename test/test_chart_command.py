@@ -82,7 +82,8 @@ def test_quick_chart_writes_table_pictures_and_summary(capsys, tmp_path):
     summary, written = captured.out.rsplit('Written to ', 1)
     assert (tmp_path / 'speed_accuracy.txt').read_text() == summary
     assert written.startswith(f'{tmp_path}: ')
-    for name in ('speed_accuracy', 'speed_accuracy_model', 'speed_accuracy_front'):
+    for name in ('speed_accuracy', 'speed_accuracy_model', 'speed_accuracy_front',
+                 'righting_arm'):
         assert Image.open(tmp_path / f'{name}.png').width == 1350
 
 
@@ -90,10 +91,15 @@ def test_pictures_are_as_wide_as_the_readme_and_equal_for_equal_data(tmp_path):
     steps = [Row(time_stepping.PART, scene.name, integrator, float(rate), evaluations=float(rate),
                  cpu=1e-5 * rate, error=1.0 / rate) for scene in SCENES
              for integrator in time_stepping.INTEGRATORS for rate in (10, 100, 1000)]
-    hulls = [row for task in hull_accuracy.tasks(True) if task[0] == 'still'
-             for row in hull_accuracy.measured((*task[:2], (2, 3)))]
-    fronts = [Row(PART, 'scene', 'leapfrog', 10.0, 4, '2x2', cpu=1e-4, error=0.1, front=1),
-              Row(PART, 'scene', 'rk4', 10.0, 4, '2x2', cpu=1e-3, error=0.01, front=1)]
+    hulls = [Row(hull_accuracy.PART, scene, 'leapfrog', 30.0, model, 4, panels,
+                 quantity=quantity, cpu=3e-5, percent=1.0)
+             for scene in (*(shape.name for shape in hull_accuracy.SHAPES), *hull_accuracy.RATIOS)
+             for quantity in (*hull_accuracy.RIGHTING.values(), 'motion')
+             for model, panels in (('springs', 0), ('columns', 0), ('panels', 12))]
+    fronts = [Row(PART, 'scene', 'leapfrog', 10.0, 'columns', 4, 0, '2x2', cpu=1e-4, error=0.1,
+                  front=1),
+              Row(PART, 'scene', 'rk4', 10.0, 'panels', 4, 12, '2x2', 0.0, cpu=1e-3, error=0.01,
+                  front=1)]
     plots.draw_time_stepping(steps, tmp_path / 'steps.png')
     plots.draw_model(hulls, tmp_path / 'model.png')
     plots.draw_front(fronts, 'scene', tmp_path / 'front.png')

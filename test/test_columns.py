@@ -22,8 +22,8 @@ from boat_buoyancy.physics.boat.hull import Hull
 from boat_buoyancy.physics.boat.surface import box_surface, joined, Surface
 from boat_buoyancy.physics.hydrostatics.metacentric_height import metacentric_heights
 from boat_buoyancy.physics.hydrostatics.righting_arm import righting_arms
-from boat_buoyancy.tools.chart.hull_accuracy import righting_arm
 from boat_buoyancy.tools.chart.hull_shapes import V_HULL, WIGLEY
+from boats import righting_arm
 import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
@@ -93,7 +93,7 @@ BODIES = {
     'far apart': joined([box_surface((2.0, 1.0, 0.5)), box_surface((1.0, 1.0, 0.5),
                                                                    (5.0, 0.3, 9.0))]),
     'blob': convex(np.random.default_rng(0).normal(size=(30, 3))),
-    'Wigley hull': welded(WIGLEY.surface(12, 6)), 'V hull': welded(V_HULL.surface(4, 4))}
+    'Wigley hull': WIGLEY.surface(12, 6), 'V hull': V_HULL.surface(4, 4)}
 
 
 def boat_of(surface, probes, volume, center):
@@ -121,7 +121,7 @@ def exact_metacentric_heights(surface, volume, center):
     (V_HULL, 1, (4, 4), 5.9, 0.0), (V_HULL, 1, (8, 6), 2.8, 0.0), (WIGLEY, 2, (4, 4), 0.5, 0.1)])
 def test_columns_have_draft_and_gm_of_the_surface_and_its_righting_arms_within_what_is_known(
         shape, hulls, probes, arm, height):
-    one = welded(shape.surface())
+    one = shape.surfaces[-1]
     surface = one if hulls == 1 else joined([moved(one, shift=(0.0, y, 0.0)) for y in (-3, 3)])
     volume = submerged(surface.facets - [0.0, 0.0, shape.draft])[0]
     boat = boat_of(surface, probes, volume, shape.center)

@@ -30,8 +30,8 @@ from boat_buoyancy.physics.hydrostatics.stiffness import still_load
 from boat_buoyancy.physics.hydrostatics.warnings import flotation_warnings
 from boat_buoyancy.physics.rotation import from_roll_pitch_yaw, rotation_matrix, to_world
 from boat_buoyancy.physics.sea.waves import Sea
-from boat_buoyancy.tools.chart.hull_accuracy import righting_arm
-from boats import asymmetric_boat, last_state, LAWS, reference_boat, simulate, undamped
+from boats import (asymmetric_boat, last_state, LAWS, reference_boat, righting_arm, simulate,
+                   undamped)
 import numpy as np
 import pytest
 from scipy.optimize import brentq

@@ -16,6 +16,7 @@
 
 import matplotlib
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 # Okabe and Ito's palette; every colour has a marker of its own besides.
 STYLES = {
@@ -62,6 +63,11 @@ def logarithmic(axes, x, y, *, bottom=None, top=None):
     """Make both axes logarithmic, with labels and limits of y."""
     axes.set_xscale('log')
     axes.set_yscale('log')
+    # As many numbers on a decade as there is room for, whatever part of it there is.
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
+    axes.xaxis.set_major_formatter('{x:g}')
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_formatter(NullFormatter())
     axes.set_xlabel(x)
     axes.set_ylabel(y)
     if bottom is not None:

@@ -12,74 +12,51 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Part two of the chart: what probes make of a hull, beside the hull itself clipped exactly."""
+"""Part two of the chart: what springs, columns and panels make of a hull, and what they cost."""
 
 from dataclasses import replace
 import math
 
 import numpy as np
 
-from .accuracy import difference, Run, simulated
-from .hull_shapes import BOX, PLACEMENTS, SHAPES
+from .accuracy import difference, Run, simulated, step_seconds
+from .hull_shapes import BOX, SHAPES
 from .table import Row
 from ...physics.boat.boat import Boat, Damping
 from ...physics.boat.clipping import level_for, submerged
+from ...physics.boat.shapes import mesh_shaped
 from ...physics.hydrostatics.rest import rest_state
-from ...physics.hydrostatics.righting_arm import righting_arms
+from ...physics.hydrostatics.righting_arm import righting_arms, surface_righting_arms
 from ...physics.sea.waves import Sea
 
 PART = 'model'
 DENSITY, GRAVITY = 1025.0, 9.81
-LAWS = ('column', 'spring')
+# Springs and columns, so many along and so many across.
 COUNTS = (2, 3, 4, 6, 8, 12)
-# GZ up to just before the box's deck edge dips, and far beyond.
-SMALL_HEELS, LARGE_HEELS = 25.0, 50.0
-HEELS = np.radians(np.arange(5.0, LARGE_HEELS + 1.0, 5.0))
-GZ_SMALL, GZ_LARGE = f'GZ to {SMALL_HEELS:g} deg', f'GZ to {LARGE_HEELS:g} deg'
+# GZ up to just before the box's deck edge dips, and all the way round.
+HEELS = np.radians(np.arange(5.0, 181.0, 5.0))
+RIGHTING = {heel: f'GZ to {heel} deg' for heel in (25, 180)}
 # Small enough for GM = GZ / sin(heel), large enough for its digits.
 SMALL_HEEL = 1e-5
-# The hull itself in waves: columns enough that more change nothing that is drawn.
-FINE = 20
-# Wavelength over the barge's length; height of the waves over their length; their direction.
-WAVELENGTHS = (0.5, 1.0, 2.0, 4.0)
+# Wavelength over the length of the box, by scene; height of waves over length; their direction.
+RATIOS = {f'box in waves of {ratio:g} L': ratio for ratio in (1.0, 4.0)}
 STEEPNESS, DIRECTION = 1.0 / 50.0, 0.6
-# The same step for probes and hull, so that its own error cancels.
-WAVE_RATE, WAVE_DURATION = 30.0, 30.0
-
-
-def hydrostatics_of_surface(shape):
-    """
-    Return draft m, GM m and righting arms (n,) m at `HEELS` of a `Shape`, by exact clipping.
-
-    It weighs what it displaces at its draft; trim 0, free to rise.
-    """
-    triangles = shape.surface()
-    volume = design_volume(shape)
-    draft = level_for(triangles, volume)
-    arms = [righting_arm(triangles, shape.center, volume, heel) for heel in (SMALL_HEEL, *HEELS)]
-    return draft, arms[0] / math.sin(SMALL_HEEL), np.array(arms[1:])
+# Panels on the length of a wave, and on that of the hull itself, whose error falls as the square.
+PANELS_ON_WAVE, FINE = (2, 4, 8, 16), 64
+# Where probe damping is taken of a hull of panels in waves; of the hull itself.
+DAMPED_AT, FINELY_DAMPED_AT = (6, 4), (12, 12)
+# The same step for all models, so that its own error cancels; the cost is of so many.
+RATE, WAVE_DURATION = 30.0, 30.0
 
 
 def design_volume(shape):
     """Return the volume in m^3 that a `Shape` displaces at its draft."""
-    return submerged(shape.surface() - [0.0, 0.0, shape.draft])[0]
+    return submerged(shape.surfaces[-1].facets - [0.0, 0.0, shape.draft])[0]
 
 
-def righting_arm(triangles, center, volume, heel):
-    """
-    Return the righting arm in m of a surface (n, 3, 3) m that displaces ``volume`` m^3.
-
-    ``center`` m, the centre of mass above the origin; ``heel`` rad.
-    """
-    c, s = math.cos(heel), math.sin(heel)
-    turned = (triangles - [0.0, 0.0, center]) @ np.array(
-        [[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
-    wet, moment = submerged(turned - [0.0, 0.0, level_for(turned, volume)])
-    return -moment[1] / wet
-
-
-def boat_of(shape, hull, volume):
+def boat_of(shape, hull):
     """Return a `Boat` of the weight that a `Shape` displaces, with the inertia of a box."""
+    volume = design_volume(shape)
     mass = DENSITY * volume
     length, beam, depth = np.square([shape.length, shape.beam, shape.depth])
     inertia = mass / 12.0 * np.array([beam + depth, length + depth, length + beam])
@@ -88,87 +65,137 @@ def boat_of(shape, hull, volume):
     return Boat(mass, hull, inertia, damping, (0.0, 0.0, shape.center), GRAVITY)
 
 
-def probe_boat(shape, volume, count, placement='gauss', law='column'):
-    """Return the `Boat` of a `Shape` on ``count`` x ``count`` probes."""
-    return boat_of(shape, shape.hull(count, placement, law, specific_weight=DENSITY * GRAVITY),
-                   volume)
+def spring_boat(shape, count):
+    """Return the `Boat` of a `Shape` on ``count`` x ``count`` springs."""
+    return boat_of(shape, shape.springs(
+        count, DENSITY * GRAVITY * shape.surfaces[-1].volume))
 
 
-def hydrostatics_of_probes(boat):
-    """Return draft m, GM m and righting arms (n,) m at `HEELS` of a `Boat`."""
-    draft = boat.center_of_mass[2] - rest_state(boat).position[2]
-    arms = righting_arms(boat, np.concatenate([[SMALL_HEEL], HEELS]))
-    return draft, arms[0] / math.sin(SMALL_HEEL), arms[1:]
+def column_boat(shape, probes, surface=None):
+    """Return the `Boat` of a `Shape`, or of a ``surface`` near it, on (along, across) columns."""
+    surface = shape.surfaces[-1] if surface is None else surface
+    return boat_of(shape, mesh_shaped(surface, probes, design_volume(shape),
+                                      specific_weight=DENSITY * GRAVITY))
+
+
+def panelled(boat, size, sea):
+    """Return a `Boat` with panels whose edges are at most ``size`` m, 0 = as a sea needs them."""
+    return replace(boat, hull=replace(boat.hull, panel_size=size).panelled(sea))
+
+
+def models(scene, counts):
+    """Yield the name of each model and its `Run` of a scene, the hull itself in waves at last."""
+    shape = next((shape for shape in SHAPES if shape.name == scene), BOX)
+    ratio = RATIOS.get(scene)
+    sea = Sea() if ratio is None else wave(ratio)
+
+    def run(boat):
+        return Run(scene, boat, sea, rest_state(boat), WAVE_DURATION, 0.5 * shape.length)
+
+    for count in counts:
+        yield 'springs', run(spring_boat(shape, count))
+    for count in counts:
+        yield 'columns', run(column_boat(shape, (count, count)))
+    if ratio is None:
+        for surface in shape.surfaces[:max(1, len(shape.surfaces) - 1)]:
+            yield 'panels', run(panelled(column_boat(shape, (2, 2), surface), 0.0, sea))
+    else:
+        for count in PANELS_ON_WAVE:
+            yield 'panels', run(panelled(column_boat(shape, DAMPED_AT),
+                                         sea.shortest_length / count, sea))
+
+
+def wave(ratio):
+    """Return the `Sea` of regular waves ``ratio`` times as long as the box."""
+    length = ratio * BOX.length
+    period = 2.0 * math.pi / math.sqrt(GRAVITY * 2.0 * math.pi / length)
+    return Sea([[0.5 * STEEPNESS * length, period, DIRECTION, 0.0]], gravity=GRAVITY)
 
 
 def tasks(quick):
     """Return the arguments of `measured`, one tuple for each piece of work."""
-    counts = COUNTS[:3] if quick else COUNTS
-    return ([('still', shape.name, counts) for shape in SHAPES]
-            + [('waves', ratio, counts) for ratio in (WAVELENGTHS[1:3] if quick
-                                                      else WAVELENGTHS)])
+    counts = COUNTS[:4] if quick else COUNTS
+    return [(scene, counts) for scene in (*(shape.name for shape in SHAPES), *RATIOS)]
 
 
 def measured(task):
-    """Return the rows of one hull in still water, or of the barge in one length of waves."""
-    kind, what, counts = task
-    if kind == 'waves':
-        return _wave_rows(what, counts)
-    return _still_rows(next(shape for shape in SHAPES if shape.name == what), counts)
+    """Return the rows of one scene, without their cost."""
+    scene, counts = task
+    if scene in RATIOS:
+        return _wave_rows(scene, counts)
+    return _still_rows(scene, counts)
 
 
-def _cases(counts):
-    return [(count, placement, law) for law in LAWS for placement in PLACEMENTS
-            for count in counts]
+def costs(rows, work, repeats=5):
+    """Return the rows of all tasks in ``work`` with their cost; run it on a quiet machine."""
+    runs = {}
+    for scene, counts in work:
+        for model, run in models(scene, counts):
+            runs[_key(_row(scene, model, run.boat))] = run
+    seconds = step_seconds(runs, ('leapfrog',), repeats=repeats)
+    return [replace(row, cpu=RATE * seconds[_key(row), 'leapfrog']) for row in rows]
 
 
-def _still_rows(shape, counts):
+def _row(scene, model, boat):
+    """Return a row of a model without what is measured."""
+    hull = boat.hull
+    return Row(PART, scene, 'leapfrog', RATE, model, probes=len(hull.positions),
+               panels=0 if hull.panels is None else len(hull.panels.triangles))
+
+
+def _key(row):
+    return row.scene, row.model, row.probes, row.panels
+
+
+def hydrostatics(boat):
+    """Return draft m, GM m and righting arms (n,) m at `HEELS` of a `Boat`."""
+    arms = righting_arms(boat, np.array([SMALL_HEEL, *HEELS]))
+    # The keel goes through the body origin.
+    keel = boat.center_of_mass[2] - rest_state(boat).position[2]
+    return keel, arms[0] / math.sin(SMALL_HEEL), arms[1:]
+
+
+def exact_hydrostatics(shape):
+    """Return what `hydrostatics` does, of a `Shape`'s surface by exact clipping."""
+    arms = surface_righting_arms(column_boat(shape, (2, 2)), np.array([SMALL_HEEL, *HEELS]))
+    depth = level_for(shape.surfaces[-1].facets, design_volume(shape))
+    return depth, arms[0] / math.sin(SMALL_HEEL), arms[1:]
+
+
+def _still_rows(scene, counts):
     """Return the rows of draft, GM and GZ of one hull."""
-    draft, height, arms = hydrostatics_of_surface(shape)
-    volume, rows = design_volume(shape), []
-    small = np.degrees(HEELS) < SMALL_HEELS + 1.0
-    for count, placement, law in _cases(counts):
-        boat = probe_boat(shape, volume, count, placement, law)
-        row = Row(PART, shape.name, probes=len(boat.hull.positions), placement=placement, law=law)
-        found = hydrostatics_of_probes(boat)
-        away = found[2] - arms
-        rows += [replace(row, quantity=quantity, error=abs(error), percent=100.0 * error / whole)
-                 for quantity, error, whole in (
-                     ('draft', float(found[0] - draft), draft),
-                     ('GM', float(found[1] - height), abs(height)),
-                     (GZ_SMALL, _rms(away[small]), np.abs(arms[small]).max()),
-                     (GZ_LARGE, _rms(away), np.abs(arms).max()))]
+    shape = next(shape for shape in SHAPES if shape.name == scene)
+    depth, height, arms = exact_hydrostatics(shape)
+    rows = []
+    for model, run in models(scene, counts):
+        found = hydrostatics(run.boat)
+        figures = [('draft', found[0] - depth, depth), ('GM', found[1] - height, abs(height))]
+        for heel, quantity in RIGHTING.items():
+            within = HEELS < math.radians(heel + 1)
+            figures.append((quantity, math.sqrt(np.mean((found[2] - arms)[within] ** 2)),
+                            np.abs(arms[within]).max()))
+        rows += [replace(_row(scene, model, run.boat), quantity=quantity, error=abs(error),
+                         percent=100.0 * error / whole) for quantity, error, whole in figures]
     return rows
 
 
-def _rms(values):
-    return float(np.sqrt(np.mean(values ** 2)))
+def hull_itself(scene):
+    """Return the `Run` of the hull itself in waves: of panels so fine that more change little."""
+    sea = wave(RATIOS[scene])
+    boat = panelled(column_boat(BOX, FINELY_DAMPED_AT), sea.shortest_length / FINE, sea)
+    return Run(scene, boat, sea, rest_state(boat), WAVE_DURATION, 0.5 * BOX.length)
 
 
-def wave_run(boat, wavelength):
-    """Return the `Run` of a boat of the barge's shape in regular waves of ``wavelength`` m."""
-    period = 2.0 * math.pi / math.sqrt(GRAVITY * 2.0 * math.pi / wavelength)
-    sea = Sea([[0.5 * STEEPNESS * wavelength, period, DIRECTION, 0.0]])
-    return Run('barge in waves', boat, sea, rest_state(boat), WAVE_DURATION, 0.5 * BOX.length)
-
-
-def _wave_rows(ratio, counts):
-    """Return the rows of the barge's motion in waves of one length."""
-    volume, wavelength = design_volume(BOX), ratio * BOX.length
-
-    def motion(*case):
-        run = wave_run(probe_boat(BOX, volume, *case), wavelength)
-        return simulated(run, 'leapfrog', WAVE_RATE)
-
-    _, truth = motion(FINE)
-    amplitude, rows = 0.5 * STEEPNESS * wavelength, []
-    for count, placement, law in _cases(counts):
-        found = motion(count, placement, law)
+def _wave_rows(scene, counts):
+    """Return the rows of the box's motion in waves of one length."""
+    _, truth = simulated(hull_itself(scene), 'leapfrog', RATE)
+    amplitude, rows = 0.5 * STEEPNESS * RATIOS[scene] * BOX.length, []
+    for model, run in models(scene, counts):
+        found = simulated(run, 'leapfrog', RATE)
         if found is None:
             continue
-        error = difference(found[1], truth, 0.5 * BOX.length)
-        rows.append(Row(PART, 'barge in waves', 'leapfrog', WAVE_RATE, count * count, placement,
-                        law, f'wavelength {ratio:g} lengths', position=error.position,
-                        rotation=error.rotation, error=error.total,
-                        percent=100.0 * error.total / amplitude))
+        error = difference(found[1], truth, run.length)
+        rows.append(replace(_row(scene, model, run.boat), quantity='motion',
+                            position=error.position, rotation=error.rotation, error=error.total,
+                            percent=100.0 * error.total / amplitude))
     return rows

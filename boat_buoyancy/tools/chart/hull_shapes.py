@@ -12,16 +12,17 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Hulls of a known shape: their surface, to be clipped exactly, and the probes put under them."""
+"""Hulls of a known shape: their surface, as fine as is wanted, and springs as in games."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from ...physics.boat.closed_mesh import welded
 from ...physics.boat.hull import Hull
-
-PLACEMENTS = ('gauss', 'midpoint', 'corner')
+from ...physics.boat.surface import box_surface, Surface
 
 
 @dataclass(frozen=True)
@@ -32,8 +33,8 @@ class Shape:
     Main arguments: ``name``; ``length``, ``beam``, ``draft`` and ``depth`` m; ``center`` m, the
     height of the centre of mass above the keel.
     Other arguments: ``waterline`` (x / half length) -> half breadth / half beam at and above the
-    draft; ``section`` (z / draft, 0 to 1) -> half breadth / that of the waterline; ``bottom``,
-    the inverse of ``section``: (y / half breadth) -> height / draft.
+    draft; ``section`` (z / draft, 0 to 1) -> half breadth / that of the waterline; ``meshes``
+    (along, up) of a curved hull, as of `surface`, the finest for the hull itself.
     """
 
     name: str
@@ -44,24 +45,31 @@ class Shape:
     center: float
     waterline: Callable
     section: Callable
-    bottom: Callable
+    meshes: tuple = ((1, 1),)
 
     def half_breadth(self, x, z):
         """Return the half breadth in m at ``x`` and the height ``z`` m above the keel."""
         return (0.5 * self.beam * self.waterline(2.0 * x / self.length)
                 * self.section(np.minimum(z / self.draft, 1.0)))
 
-    def surface(self, along=96, up=48):
-        """
-        Return the closed surface as triangles (n, 3, 3) m, counter-clockwise from outside.
+    @cached_property
+    def surfaces(self):
+        """Return the `Surface`s to choose from, the hull itself the last; a box has 12 panels."""
+        if self.waterline is self.section:
+            return (box_surface((self.length, self.beam, self.depth),
+                                (0.0, 0.0, self.depth / 2.0)),)
+        return tuple(self.surface(*mesh) for mesh in self.meshes)
 
-        Of ``along`` x ``up`` panels a side, the waterline among their edges.
+    def surface(self, along, up):
+        """
+        Return the closed `Surface`, of ``along`` x ``up`` panels on each side of the wet hull.
+
+        The waterline is among their edges; above it there are walls.
         """
         x = 0.5 * self.length * np.linspace(-1.0, 1.0, along + 1)
         # Finer towards the keel, where a curved section turns most.
-        z = np.concatenate([self.draft * np.linspace(0.0, 1.0, up + 1) ** 2,
-                            np.linspace(self.draft, self.depth, 9)[1:]])
-        across = np.linspace(-1.0, 1.0, 3)
+        z = np.append(self.draft * np.linspace(0.0, 1.0, up + 1) ** 2, self.depth)
+        across = np.array([-1.0, 1.0])
         breadth = self.half_breadth(x[:, None], z[None, :])
 
         def points(x, share, breadth, z):
@@ -73,58 +81,26 @@ class Shape:
         deck = points(x[:, None], across, breadth[:, -1:], z[-1])
         stern = points(x[0], across[:, None], breadth[0], z)
         bow = points(x[-1], across[:, None], breadth[-1], z)
-        return np.concatenate([
+        triangles = np.concatenate([
             _triangles(grid, turned) for grid, turned in (
                 (port, True), (starboard, False), (keel, True), (deck, False),
                 (stern, True), (bow, False))])
+        # Where a keel or a stem is sharp both sides have the same triangles, with nothing between.
+        triangles = triangles[(triangles[:, :, 1] != 0.0).any(axis=1)]
+        return Surface(*welded(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(
+            -1, 3)))
 
-    def hull(self, count, placement='gauss', law='column', *, specific_weight):
+    def springs(self, count, budget):
         """
-        Return the `Hull` of ``count`` x ``count`` probes; the body origin is on the keel.
+        Return the `Hull` of ``count`` x ``count`` springs, as is usual in games.
 
-        Over the waterplane, each at its local bottom, carrying its part of the waterplane and
-        reaching up to the deck.  Those of ``corner`` spread over the rectangle around the hull,
-        all at the keel and with equal parts of its volume, as is usual in games.
+        Spread over the rectangle around the hull, its corners among them, all at the keel, as high
+        as the hull and with equal parts of its ``budget`` N.
         """
-        places, weights = nodes(count, placement)
-        if placement == 'corner':
-            x, y = (0.5 * size * places for size in (self.length, self.beam))
-            positions = np.stack([np.repeat(x, count), np.tile(y, count), np.zeros(count ** 2)],
-                                 axis=1)
-            _, volumes = self._columns(*nodes(64, 'gauss'))
-            return Hull(positions, np.full(count ** 2, specific_weight * volumes.sum()
-                                           / count ** 2), self.depth, law)
-        positions, volumes = self._columns(places, weights)
-        return Hull(positions, specific_weight * volumes, self.depth - positions[:, 2], law)
-
-    def _columns(self, places, weights):
-        """Return positions (n, 3) m and volumes (n,) m^3 of columns over the waterplane."""
-        x = 0.5 * self.length * places
-        breadth = self.half_breadth(x, self.draft)
-        z = self.draft * np.tile(self.bottom(np.abs(places)), len(places))
-        area = np.outer(weights * 0.5 * self.length * breadth, weights).ravel()
-        positions = np.stack([np.repeat(x, len(places)), np.outer(breadth, places).ravel(), z],
-                             axis=1)
-        return positions, area * (self.depth - z)
-
-
-def nodes(count, placement):
-    """
-    Return ``count`` places in -1 to 1 and their weights, which add up to 2.
-
-    Gauss-Legendre points; the midpoints of equal intervals; or evenly spread with one on each
-    end.
-    """
-    if placement == 'gauss':
-        return np.polynomial.legendre.leggauss(count)
-    if placement == 'midpoint':
-        places = (2.0 * np.arange(count) + 1.0) / count - 1.0
-    elif placement == 'corner':
-        places = np.linspace(-1.0, 1.0, count)
-    else:
-        raise ValueError(f'placement: expected one of {", ".join(PLACEMENTS)}, '
-                         f'got {placement!r}')
-    return places, np.full(count, 2.0 / count)
+        places = np.linspace(-0.5, 0.5, count)
+        x, y = (grid.ravel() for grid in np.meshgrid(self.length * places, self.beam * places))
+        return Hull(np.stack([x, y, np.zeros_like(x)], axis=1),
+                    np.full(x.size, budget / x.size), self.depth, 'spring')
 
 
 def _triangles(grid, turned):
@@ -142,13 +118,11 @@ def _ones(values):
     return np.ones_like(values)
 
 
-BOX = Shape('box', 20.0, 6.0, 1.5, 3.0, 1.8, waterline=_ones, section=_ones,
-            bottom=np.zeros_like)
+BOX = Shape('box', 20.0, 6.0, 1.5, 3.0, 1.8, waterline=_ones, section=_ones)
 # Wigley (1942), the mathematical hull of parabolic waterlines and sections; walls above.
 WIGLEY = Shape('Wigley hull', 20.0, 4.0, 1.25, 2.5, 1.4,
                waterline=lambda x: 1.0 - x * x, section=lambda z: z * (2.0 - z),
-               bottom=lambda y: 1.0 - np.sqrt(1.0 - y))
+               meshes=((4, 2), (6, 3), (8, 4), (12, 6), (16, 8), (24, 12), (96, 48)))
 # A runabout of 20 degrees deadrise, chine on the waterline, walls above.
-V_HULL = Shape('V hull', 8.0, 3.0, 0.55, 1.2, 0.8, waterline=_ones, section=lambda z: z,
-               bottom=lambda y: y)
+V_HULL = Shape('V hull', 8.0, 3.0, 0.55, 1.2, 0.8, waterline=_ones, section=lambda z: z)
 SHAPES = (BOX, WIGLEY, V_HULL)

@@ -29,9 +29,10 @@ from ...physics.scene.scene import load_scene
 
 PROGRAM = 'buoyancy_chart'
 DESCRIPTION = (
-    'Charts speed against accuracy (speed_accuracy.png and .csv, _model.png, _front.png, and a '
-    'summary). With --tolerance it measures the scene and prints the cheapest setting that meets '
-    'it; with --speed the cost of a step; with --stability where each integrator is stable.')
+    'Charts speed against accuracy (speed_accuracy.png and .csv, _model.png, _front.png, '
+    'righting_arm.png and a summary). With --tolerance it measures the scene and prints the '
+    'cheapest setting that meets it; with --speed the cost of a step; with --stability where each '
+    'integrator is stable.')
 
 
 def parser():
@@ -108,7 +109,7 @@ def _chart(arguments, progress):
     lines = write_chart(arguments.out, arguments.scenes, arguments.quick, progress)
     progress.clear()
     print(*lines, f'Written to {arguments.out}: speed_accuracy.png, .csv, .txt, _model.png, '
-          '_front*.png', sep='\n')
+          '_front*.png, righting_arm.png', sep='\n')
 
 
 def _folder(path):

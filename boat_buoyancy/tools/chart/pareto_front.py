@@ -18,9 +18,11 @@ from dataclasses import replace
 from functools import lru_cache
 
 from . import settings
-from .settings import Setting, Trial
+from .accuracy import force_evaluations
+from .settings import Setting
 from .stretch import stretches
 from .table import Row
+from .trial import Trial
 from ...physics.scene.scene import load_scene
 
 PART = 'both'
@@ -39,13 +41,16 @@ LEVEL = 0.05
 GAIN = 0.9
 
 
+def stretch_of(items, quick):
+    """Return the `Stretch` by which settings are chosen, of parameters as sorted pairs."""
+    stretch, _ = stretches(dict(items))
+    return replace(stretch, duration=min(stretch.duration, QUICK_DURATION)) if quick else stretch
+
+
 @lru_cache(maxsize=1)
 def trial(items, quick):
     """Return the `settings.Trial` of parameters, given as sorted pairs, solved once a process."""
-    stretch, _ = stretches(dict(items))
-    if quick:
-        stretch = replace(stretch, duration=min(stretch.duration, QUICK_DURATION))
-    return Trial.of(stretch)
+    return Trial.of(stretch_of(items, quick))
 
 
 def scene_items(source):
@@ -55,18 +60,18 @@ def scene_items(source):
 
 def tasks(name, items, quick):
     """Return the arguments of `measured`, one tuple for each piece of work."""
-    return [(name, items, probes, quick) for probes in settings.choices(dict(items))]
+    return [(name, items, model, quick) for model in settings.choices(dict(items))]
 
 
 def measured(task):
-    """Return [(`Setting`, error m)] of all integrators and steps with one choice of probes."""
-    _, items, probes, quick = task
+    """Return [(`Setting`, error m)] of all integrators and steps with one model of the hull."""
+    _, items, model, quick = task
     of_scene = trial(items, quick)
     found = []
     for integrator in settings.INTEGRATORS:
         errors = []
         for rate in QUICK_RATES if quick else RATES:
-            setting = Setting(integrator, rate, probes)
+            setting = Setting(integrator, rate, *model)
             errors.append(of_scene.error(setting))
             found.append((setting, errors[-1]))
             last = errors[-3:]
@@ -82,25 +87,35 @@ def rows(name, items, found, quick):
 
     Measures the time of a step: to be run on a quiet machine.
     """
-    seconds = settings.step_costs(trial(items, quick), repeats=3 if quick else 9)
+    stretch = stretch_of(items, quick)
+    seconds = settings.step_costs(stretch, repeats=3 if quick else 9)
     cost = {setting: cpu for cpu, setting in settings.candidates(
         seconds, QUICK_RATES if quick else RATES)}
-    results = sorted(((cost[setting], setting.probe_count, error, setting)
-                      for setting, error in found), key=lambda entry: entry[:3])
+    accepts = settings.acceptance(dict(items))
+    hulls = {model: stretch.run(settings.hull_values(*model)).boat.hull
+             for model in settings.choices(dict(items))}
+    results = sorted(((cost[setting], setting, error) for setting, error in found),
+                     key=lambda entry: (settings.counted(*entry[:2]), entry[1].probe_count,
+                                        entry[2]))
     made, best = [], float('inf')
-    for cpu, _, error, setting in results:
-        # The front: dearer only for a smaller error, and not refused by the library.
-        leads = error < GAIN * best and settings.is_allowed(dict(items), setting)
+    for cpu, setting, error in results:
+        # The front: dearer only for a smaller error, and nothing that is started with a warning.
+        leads = error < GAIN * best and accepts(setting)
         best = min(best, error) if leads else best
-        made.append(_row(name, items, setting, error, cpu, leads))
+        made.append(_row(name, hulls[setting.probes, setting.panel_size], setting, error, cpu,
+                         leads))
     return made
 
 
-def _row(name, items, setting, error, cpu, leads):
-    probes = load_scene(dict(items)).boat.hull
-    return Row(PART, name, setting.integrator, setting.rate,
-               setting.probe_count or len(probes.positions),
-               '{}x{}'.format(*setting.probes) if setting.probes else 'as given',
-               probes.law, evaluations=settings.force_evaluations(
-                   setting.integrator, setting.rate),
+def _row(name, hull, setting, error, cpu, leads):
+    return Row(PART, name, setting.integrator, setting.rate, setting.model,
+               len(hull.positions), 0 if hull.panels is None else len(hull.panels.triangles),
+               '{}x{}'.format(*setting.probes) if setting.probes else None, setting.panel_size,
+               evaluations=force_evaluations(setting.integrator, setting.rate),
                cpu=cpu, error=error, front=int(leads))
+
+
+def setting_of(row):
+    """Return the `Setting` of a row of the table."""
+    probes = tuple(map(int, row.grid.split('x'))) if row.grid else None
+    return Setting(row.integrator, row.rate, probes, row.panel_size)

@@ -12,14 +12,14 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Settings that a parameter file can have, and what each costs and is worth on one stretch."""
+"""Settings that a parameter file can have, what a step of each costs, and which are accepted."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import math
+import re
 
-from .accuracy import apart, boat_length, force_evaluations, measure, Run, step_seconds
-from .reference_solution import Reference
-from .stretch import Stretch
+from .accuracy import step_seconds
+from ...physics.boat.hull import PANELS_A_WAVE
 from ...physics.scene.scene import scene_from_values
 
 # For study only, never the best: euler is not among them.
@@ -27,35 +27,46 @@ INTEGRATORS = ('leapfrog', 'rk4', 'implicit', 'symplectic_euler')
 # Steps per simulated second, about a factor of the square root of 2 apart.
 RATES = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0, 32.0, 45.0, 64.0, 90.0, 128.0,
          180.0, 256.0, 360.0, 512.0, 720.0, 1024.0, 1440.0, 2048.0)
-# Probes along and across a hull of a given shape.
-PROBES = ((2, 2), (3, 2), (4, 2), (4, 4), (6, 4), (8, 8))
-# What stands for the hull itself: this many columns along and across, and fewer of them for how
-# far that is from the limit of ever more.
-HULL, COARSER_HULL = (16, 16), (12, 12)
-# Relative to the errors of a handful of probes nothing; it saves the restart at each of the
-# thousands of kinks of a hull of many.
-HULL_TOLERANCE = 1e-8
+# Columns along and across a hull of a given shape; probes for the depths and damping of panels.
+COLUMNS = ((2, 2), (3, 2), (4, 2), (4, 4), (6, 4), (8, 8))
+PANEL_PROBES = ((2, 2), (4, 2), (6, 4), (8, 8))
+# Panels in waves as fine as `hull.panel_size: 0` makes them, and this many times finer.
+FINER = (2, 4)
+# The plain game loop is named only where it saves more than the noise of the clock: it has
+# nothing else for it.
+GAME_LOOP, NOISE = 'symplectic_euler', 1.15
 
 
 @dataclass(frozen=True)
 class Setting:
-    """An integrator, its steps per second and, for a hull of a shape, the probes under it."""
+    """
+    An integrator, its steps per second ``rate`` and, for a hull of a shape, the model of it.
+
+    ``probes`` along and across, None = those of the scene; ``panel_size`` m, 0 = chosen by the
+    sea, None = columns.
+    """
 
     integrator: str
     rate: float
     probes: tuple | None = None
+    panel_size: float | None = None
 
     @property
     def probe_count(self):
         """Return how many probes, 0 for those the scene has."""
         return 0 if self.probes is None else self.probes[0] * self.probes[1]
 
+    @property
+    def model(self):
+        """Return 'columns' or 'panels', None for a scene of given probes."""
+        if self.probes is None:
+            return None
+        return 'columns' if self.panel_size is None else 'panels'
+
     def values(self):
         """Return the parameters as {name: value}."""
-        values = {'integrator': self.integrator, 'rate': self.rate, 'substeps': 1}
-        if self.probes is not None:
-            values['hull.probes'] = list(self.probes)
-        return values
+        return {'integrator': self.integrator, 'rate': self.rate, 'substeps': 1,
+                **hull_values(self.probes, self.panel_size)}
 
     def lines(self):
         """Return the lines of a parameter file, groups nested as the shipped files have them."""
@@ -70,137 +81,119 @@ class Setting:
 
     def __str__(self):
         """Return it in a few words."""
-        probes = '' if self.probes is None else f', {self.probes[0]}x{self.probes[1]} probes'
-        return f'{self.integrator} {self.rate:g} Hz{probes}'
+        return ', '.join(filter(None, (f'{self.integrator} {self.rate:g} Hz', self.hull)))
 
-
-@dataclass(frozen=True)
-class Result:
-    """A setting measured: ``error`` m, ``cpu`` s and ``evaluations`` per simulated second."""
-
-    setting: Setting
-    error: float
-    cpu: float
-    evaluations: float
-
-
-@dataclass(frozen=True)
-class Trial:
-    """
-    One stretch of a scene with its true motion, on which settings are measured.
-
-    ``truth`` is the motion of the hull itself, or of the probes where no hull is given;
-    ``own_error`` m, how far that truth is from a finer or coarser one.
-    """
-
-    stretch: Stretch
-    truth: Reference
-    own_error: float
-    length: float
-    _runs: dict = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, stretch):
-        """Return the trial of a stretch, its truth solved."""
-        if not has_hull(stretch.given):
-            run = stretch.run()
-            truth = run.solve()
-            return cls(stretch, truth, apart(run, truth, run.solve(tolerance=1e-13)).total,
-                       run.length)
-        options = {'tolerance': HULL_TOLERANCE, 'restart': False}
-        run = stretch.run(hull_values(HULL))
-        truth = run.solve(**options)
-        coarser = stretch.run(hull_values(COARSER_HULL)).solve(**options)
-        return cls(stretch, truth, apart(run, truth, coarser).total, boat_length(run.boat))
-
-    def run(self, probes):
-        """Return the `Run` of this stretch with other probes; None = the scene's own."""
-        if probes not in self._runs:
-            run = self.stretch.run({} if probes is None else {'hull.probes': list(probes)})
-            self._runs[probes] = Run(str(probes), run.boat, run.sea, run.start, run.duration,
-                                     self.length)
-        return self._runs[probes]
-
-    def error(self, setting):
-        """Return how far a `Setting` is from the truth, in m."""
-        return measure(self.run(setting.probes), self.truth, setting.integrator,
-                       setting.rate).total
+    @property
+    def hull(self):
+        """Return the model of the hull in a few words, none for a scene of given probes."""
+        if self.probes is None:
+            return ''
+        grid = '{}x{}'.format(*self.probes)
+        if self.panel_size is None:
+            return f'{grid} columns'
+        return f'panels{f" of {self.panel_size:g} m" if self.panel_size else ""}, {grid} probes'
 
 
 def has_hull(given):
-    """Return True when the boat has the shape of a hull, so that its probes can be chosen."""
+    """Return True when the boat has the shape of a hull, so that its model can be chosen."""
     return 'probes.positions' not in given
 
 
-def hull_values(probes):
-    """Return the parameters that make probes stand for the hull as it is."""
-    return {'hull.probes': list(probes), 'probes.law': 'column'}
+def hull_values(probes, panel_size=None):
+    """Return the parameters of a model of the hull, as of `Setting`: {name: value}."""
+    if probes is None:
+        return {}
+    values = {'hull.model': 'columns', 'hull.probes': list(probes)}
+    if panel_size is not None:
+        values.update({'hull.model': 'panels', 'hull.panel_size': panel_size})
+    return values
+
+
+def surface_values(probes, panel_size):
+    """Return the parameters that make panels stand for the hull as it is."""
+    return {**hull_values(probes, panel_size), 'probes.law': 'column'}
 
 
 def choices(given):
-    """Return the probes to choose from, its own among them; a scene of given probes keeps them."""
+    """
+    Return (probes, panel_size) of all models to choose from, as of `Setting`, the scene's own too.
+
+    A scene of given probes keeps them.
+    """
     if not has_hull(given):
-        return (None,)
-    own = tuple(scene_from_values(given).values['hull.probes'])
-    return tuple(sorted({*PROBES, own}, key=lambda probes: (probes[0] * probes[1], probes)))
+        return ((None, None),)
+    own = own_model(given)
+    found = {(probes, None) for probes in (*COLUMNS, own[0])}
+    found |= {(probes, size) for probes in (*PANEL_PROBES, own[0]) for size in panel_sizes(given)}
+    return tuple(sorted({*found, own}, key=lambda model: (model[1] is not None, model[1] or 0.0,
+                                                          model[0][0] * model[0][1], model[0])))
 
 
-def step_costs(trial, integrators=INTEGRATORS, repeats=5):
-    """Return {(probes, integrator): CPU time in s of one step}, measured here and now."""
-    probes = choices(trial.stretch.given)
-    return step_seconds({p: trial.run(p) for p in probes}, integrators, repeats=repeats)
+def own_model(given):
+    """Return (probes, panel_size) of a scene as it stands, as of `Setting`."""
+    if not has_hull(given):
+        return None, None
+    values = scene_from_values(given).values
+    panels = values['hull.model'] == 'panels'
+    return tuple(values['hull.probes']), values['hull.panel_size'] if panels else None
+
+
+def panel_sizes(given):
+    """Return the sizes of panels in m to choose from; finer ones only where waves ask for them."""
+    scene = scene_from_values(given)
+    fine = scene.sea.shortest_length / PANELS_A_WAVE
+    return (0.0, *(float(f'{fine / finer:.3g}') for finer in FINER
+                   if fine / finer < scene.boat.hull.surface.longest_edge))
+
+
+def step_costs(stretch, integrators=INTEGRATORS, repeats=5):
+    """Return {((probes, panel_size), integrator): CPU s of one step}, measured here and now."""
+    return step_seconds({model: stretch.run(hull_values(*model))
+                         for model in choices(stretch.given)}, integrators, repeats=repeats)
 
 
 def candidates(seconds, rates=RATES):
     """
-    Return all settings as (cpu s per simulated s, `Setting`), cheapest first.
+    Return all settings as (cpu s per simulated s, `Setting`), cheapest first as of `counted`.
 
     ``seconds`` as from `step_costs`, fewest probes first.
     """
     found, cheapest = [], {}
     # More probes never cost less; where it looks so, the clock was disturbed.
-    for (probes, integrator), second in reversed(seconds.items()):
-        cheapest[integrator] = min(cheapest.get(integrator, math.inf), second)
-        found += [(rate * cheapest[integrator], Setting(integrator, rate, probes))
+    for ((probes, size), integrator), second in reversed(seconds.items()):
+        key = integrator, size
+        cheapest[key] = min(cheapest.get(key, math.inf), second)
+        found += [(rate * cheapest[key], Setting(integrator, rate, probes, size))
                   for rate in rates]
-    return sorted(found, key=lambda pair: (pair[0], pair[1].probe_count))
+    return sorted(found, key=lambda pair: (counted(*pair), pair[1].probe_count))
 
 
-def is_allowed(given, setting):
-    """Return True when a scene with this setting is not refused as unstable."""
-    try:
-        warnings(given, setting)
-    except ValueError:
-        return False
-    return True
+def counted(cpu, setting):
+    """Return the cost by which settings are ordered: the game loop's with the clock's noise."""
+    return cpu * NOISE if setting.integrator == GAME_LOOP else cpu
 
 
-def warnings(given, setting):
-    """Return the sentences that a scene with this setting is started with."""
-    return scene_from_values({**given, **setting.values()}).simulation().warnings
-
-
-def present(trial, measured):
+def acceptance(given):
     """
-    Return the `Result` of the scene as it stands, or None where its step is not stable.
+    Return a function of a `Setting`: True when a scene with it starts without a warning.
 
-    ``measured`` as from `candidates`, for the time of a step.
+    Or without one more than it has with a fine step and the hull's own surface, figures apart:
+    those are of the boat or the sea, and no setting helps.
     """
-    try:
-        simulation = scene_from_values(trial.stretch.given).simulation()
-    except ValueError:
-        return None
-    own = None
-    if has_hull(trial.stretch.given):
-        own = tuple(scene_from_values(trial.stretch.given).values['hull.probes'])
-    setting = Setting(simulation.integrator, simulation.rate * simulation.substeps, own)
-    for cpu, other in measured:
-        if (other.integrator, other.probes) == (setting.integrator, own):
-            return result(trial, cpu / other.rate * setting.rate, setting)
-    return None
+    fine = {'integrator': 'leapfrog', 'rate': RATES[-1], 'substeps': 0}
+    if has_hull(given):
+        fine.update(surface_values(COLUMNS[-1], 0.0))
+    known = _warnings({**given, **fine})
+
+    def accepts(setting):
+        try:
+            return _warnings({**given, **setting.values()}) <= known
+        except ValueError:
+            return False
+    return accepts
 
 
-def result(trial, cpu, setting):
-    """Return a setting measured on a trial."""
-    return Result(setting, trial.error(setting), cpu,
-                  force_evaluations(setting.integrator, setting.rate))
+def _warnings(values):
+    """Return the sentences that a scene is started with, without their figures."""
+    return {re.sub(r'[-+.\d]+(e[-+]?\d+)?', '#', sentence)
+            for sentence in scene_from_values(values).simulation().warnings}

@@ -20,8 +20,8 @@ import os
 from pathlib import Path
 import signal
 
-from . import (hull_accuracy, pareto_front, speed_accuracy_plots as plots, summary, table,
-               time_stepping)
+from . import (hull_accuracy, pareto_front, righting_arm_plot, speed_accuracy_plots as plots,
+               summary, table, time_stepping)
 
 PROCESSES = 2
 NAME = 'speed_accuracy'
@@ -49,7 +49,8 @@ def write_chart(out, scenes, quick, progress):
     progress('drawing')
     plots.draw_time_stepping(rows, out / f'{NAME}.png')
     plots.draw_model(rows, out / f'{NAME}_model.png')
-    for number, name in enumerate(items):
+    righting_arm_plot.draw(out / righting_arm_plot.NAME)
+    for name in items:
         suffix = f'_{name}' if scenes else ''
         plots.draw_front(rows, name, out / f'{NAME}_front{suffix}.png')
     lines = list(summary.lines(rows))
@@ -93,6 +94,10 @@ def add_times(rows, found, items, quick, progress):
     seconds = time_stepping.step_costs(quick)
     rows = [row if row.rate is None or row.part != time_stepping.PART
             else replace(row, cpu=row.rate * seconds[row.scene, row.integrator]) for row in rows]
+    progress('times: models of hulls')
+    models = [row for row in rows if row.part == hull_accuracy.PART]
+    rows = ([row for row in rows if row.part != hull_accuracy.PART]
+            + hull_accuracy.costs(models, hull_accuracy.tasks(quick)))
     for name, settings in found.items():
         progress(f'times: settings of {name}')
         rows += pareto_front.rows(name, items[name], settings, quick)

@@ -20,19 +20,16 @@ import matplotlib
 
 from . import hull_accuracy, pareto_front, time_stepping
 from .scenes import SCENES
-from ..plot_style import (figure, logarithmic, save, SERIES, SETTINGS, STYLES,
+from ..plot_style import (figure, logarithmic, save, SETTINGS, STYLES,
                           title_and_legend)
 
 COSTS = (('evaluations', 'force evaluations per simulated second', 1.0, '{:.0f}'),
          ('cpu', 'CPU time per simulated second [µs]', 1e6, '{:.2g} µs'))
-HULL_SERIES = (('column', 'gauss', 'columns at Gauss points'),
-               ('column', 'midpoint', 'columns at midpoints'),
-               ('column', 'corner', 'columns at corners'),
-               ('spring', 'gauss', 'springs at Gauss points'),
-               ('spring', 'midpoint', 'springs at midpoints'),
-               ('spring', 'corner', 'springs at corners'))
+# How each model of a hull is drawn, and what its numbers count.
+MODELS = {'springs': ('#D55E00', 's', 'springs, as in games'),
+          'columns': ('#0072B2', 'o', 'columns'), 'panels': ('#009E73', '^', 'panels')}
 # Errors in % below this are drawn on it, and above the other not at all.
-EXACT, ABSURD = 1e-3, 2e3
+EXACT, ABSURD = 1e-2, 1e3
 # Labels on the front this far apart, as a factor of the error.
 LABEL_GAP = 1.45
 
@@ -68,76 +65,49 @@ def draw_time_stepping(rows, path):
 
 @matplotlib.rc_context(SETTINGS)
 def draw_model(rows, path):
-    """Draw what the number, placement and law of probes make of a hull."""
-    made, panels = figure(9.0, 8.2, 2, 2)
+    """Draw the error over the cost of every model of three hulls heeled and of one in waves."""
+    made, panels = figure(9.0, 7.4, 2, 2, sharex=True)
     rows = [row for row in rows if row.part == hull_accuracy.PART]
-    _hull_panel(panels[0][0], rows, 'box', 'GM')
-    panels[0][0].set_title('Barge upright')
-    panels[0][0].set_ylabel('error of GM [%]')
-    _curved_panel(panels[0][1], rows)
-    _waves_panel(panels[1][0], rows)
-    _hull_panel(panels[1][1], rows, 'barge in waves', 'wavelength 2 lengths')
-    panels[1][1].set_title('Barge in waves of 2 L')
-    panels[1][1].set_ylabel('error of motion [% of amplitude]')
-    made.suptitle('Columns at Gauss points are exact for a box and converge fastest in waves;\n'
-                  'springs (dashed) do not converge, however many', fontsize=11)
+    for axes, shape in zip(panels.flat, hull_accuracy.SHAPES):
+        of_shape = [row for row in rows if row.scene == shape.name]
+        _models(axes, {f'heeled to {heel:g}°': [row for row in of_shape
+                                                if row.quantity == quantity]
+                       for heel, quantity in hull_accuracy.RIGHTING.items()})
+        axes.set_title(f'{shape.name[0].upper()}{shape.name[1:]}, heeled')
+        axes.set_ylabel('error of GZ [% of its largest]')
+    axes = panels[1][1]
+    _models(axes, {f'waves {ratio:g} L long': [row for row in rows if row.scene == scene]
+                   for scene, ratio in hull_accuracy.RATIOS.items()})
+    axes.set_title('Box of length L in waves')
+    axes.set_ylabel('error of motion [% of amplitude]')
+    title_and_legend(made, 'Three models of a hull, error over cost: down and left is better.  '
+                     'Numbers: how many of them', panels[0][0])
     save(made, path)
 
 
-def _hull_panel(axes, rows, scene, quantity):
-    """Draw error over number of probes for every placement and law."""
-    for (law, placement, label), (colour, marker) in zip(HULL_SERIES, SERIES):
-        points = sorted((row.probes, abs(row.percent)) for row in rows
-                        if (row.scene, row.quantity, row.law, row.placement)
-                        == (scene, quantity, law, placement))
-        _line(axes, points, color=colour, marker=marker, label=label,
-              linestyle='-' if law == 'column' else '--')
-    _probe_axes(axes)
-
-
-def _curved_panel(axes, rows):
-    """Draw the error of GZ of every hull on columns at Gauss points."""
-    for shape, (colour, marker) in zip(hull_accuracy.SHAPES, SERIES):
-        for quantity, style in ((hull_accuracy.GZ_SMALL, '-'), (hull_accuracy.GZ_LARGE, ':')):
-            points = sorted((row.probes, row.percent) for row in rows
-                            if (row.scene, row.quantity, row.law, row.placement)
-                            == (shape.name, quantity, 'column', 'gauss'))
-            _line(axes, points, color=colour, marker=marker, linestyle=style,
-                  label=f'{shape.name}, {quantity[3:-4]}°')
-    _probe_axes(axes)
-    axes.set_title('Three hulls heeled, columns at Gauss points')
-    axes.set_ylabel('error of GZ [% of its largest]')
-
-
-def _waves_panel(axes, rows):
-    """Draw the error of the barge's motion in waves of several lengths."""
-    for ratio, (colour, marker) in zip(hull_accuracy.WAVELENGTHS, SERIES):
-        for placement, style in (('gauss', '-'), ('midpoint', ':')):
-            points = sorted((row.probes, row.percent) for row in rows
-                            if (row.scene, row.quantity, row.law, row.placement)
-                            == ('barge in waves', f'wavelength {ratio:g} lengths', 'column',
-                                placement))
-            _line(axes, points, color=colour, marker=marker, linestyle=style,
-                  label=f'{ratio:g} L, {placement}')
-    _probe_axes(axes)
-    axes.set_title('Barge of length L in waves, columns')
-    axes.set_ylabel('error of motion [% of amplitude]')
-
-
-def _line(axes, points, **style):
-    """Draw one line of (probes, %), what is exact to round-off on the line for that."""
-    axes.plot([x for x, _ in points], [max(y, EXACT) for _, y in points], **style)
-
-
-def _probe_axes(axes):
-    logarithmic(axes, 'number of probes', '', bottom=0.6 * EXACT, top=ABSURD)
-    ticks = [count ** 2 for count in hull_accuracy.COUNTS]
-    axes.set_xticks(ticks, [str(tick) for tick in ticks])
+def _models(axes, cases):
+    """Draw error over cost of each model, for two cases {meaning: rows}: full and dotted."""
+    meanings = []
+    for (meaning, rows), style in zip(cases.items(), '-:'):
+        meanings += axes.plot([], [], color='black', linestyle=style)
+        for model, (colour, marker, label) in MODELS.items():
+            points = sorted((1e6 * row.cpu / row.rate, min(max(abs(row.percent), EXACT), ABSURD),
+                             row.panels or row.probes) for row in rows if row.model == model)
+            axes.plot([point[0] for point in points], [point[1] for point in points], style,
+                      color=colour, marker=marker, label=label if style == '-' else None)
+            for x, y, count in points[::max(1, len(points) - 1)] if style == '-' else ():
+                axes.annotate(f'{count}', (x, y), xytext=(0, 9 if model == 'springs' else -9),
+                              textcoords='offset points', ha='center', va='center', color=colour,
+                              fontsize=8.5)
+    logarithmic(axes, 'CPU time of a step [µs]', '', bottom=0.3 * EXACT, top=1.6 * ABSURD)
+    axes.tick_params(labelbottom=True)
     powers = range(round(math.log10(EXACT)) + 1, 4)
     axes.set_yticks([EXACT, *(10.0 ** power for power in powers)],
                     ['exact', *(f'{10.0 ** power:g}' for power in powers)])
-    axes.minorticks_off()
-    axes.legend(fontsize=8, loc='upper center', bbox_to_anchor=(0.5, -0.16), ncols=2)
+    axes.yaxis.minorticks_off()
+    # Where nothing is drawn in any of them.
+    axes.legend(meanings, list(cases), fontsize=8.5, loc='lower right',
+                bbox_to_anchor=(1.0, 0.1))
 
 
 @matplotlib.rc_context(SETTINGS)
@@ -148,31 +118,34 @@ def draw_front(rows, name, path):
     rows = [row for row in rows if (row.part, row.scene) == (pareto_front.PART, name)
             and math.isfinite(row.error)]
     for integrator, (colour, marker, label) in STYLES.items():
-        points = [(1e6 * row.cpu, row.error) for row in rows if row.integrator == integrator]
-        if points:
-            axes.plot(*zip(*points), color=colour, marker=marker, linestyle='none', alpha=0.3,
-                      markersize=4, label=label)
+        for filled in (True, False):
+            points = [(1e6 * row.cpu, row.error) for row in rows if row.integrator == integrator
+                      and (row.model != 'panels') == filled]
+            if points:
+                axes.plot(*zip(*points), color=colour, marker=marker, linestyle='none', alpha=0.3,
+                          markersize=4, label=label if filled else None,
+                          markerfacecolor=colour if filled else 'none')
     best = sorted((row for row in rows if row.front), key=lambda row: row.cpu)
     axes.plot([1e6 * row.cpu for row in best], [row.error for row in best], color='black',
-              linewidth=1.2, drawstyle='steps-post', label='nothing beats these')
+              linewidth=1.2, drawstyle='steps-post', label='cheapest without a warning')
     last = math.inf
     for row in best:
         colour, marker, _ = STYLES[row.integrator]
         axes.plot([1e6 * row.cpu], [row.error], color=colour, marker=marker, markersize=7,
-                  markeredgecolor='black')
+                  **({'markerfacecolor': 'white', 'markeredgewidth': 1.8}
+                     if row.model == 'panels' else {'markeredgecolor': 'black'}))
         if row.error * LABEL_GAP < last:
             last = row.error
-            probes = '' if row.placement == 'as given' else f', {row.placement} probes'
-            axes.annotate(f'{row.integrator} {row.rate:g} Hz{probes}', (1e6 * row.cpu, row.error),
+            axes.annotate(f'{pareto_front.setting_of(row)}', (1e6 * row.cpu, row.error),
                           xytext=(-9, -9), textcoords='offset points', ha='right', va='center',
                           fontsize=8.5)
     logarithmic(axes, 'CPU time per simulated second [µs]',
                 'error of the motion, hull and step together [m]')
-    _front_limits(axes, best)
+    _front_limits(axes, best or rows)
     faster = axes.secondary_xaxis('top', functions=(_reciprocal, _reciprocal))
     faster.set_xlabel('times real time')
-    title_and_legend(made, f'{name[0].upper()}{name[1:]}: the cheapest setting for every accuracy',
-                     axes)
+    title_and_legend(made, f'{name[0].upper()}{name[1:]}: the cheapest setting for every accuracy.'
+                     '  Hollow: panels', axes)
     save(made, path)
 
 
@@ -184,5 +157,5 @@ def _reciprocal(microseconds):
 def _front_limits(axes, best):
     """Leave room on the left for the labels."""
     low, high = 1e6 * best[0].cpu, 1e6 * best[-1].cpu
-    axes.set_xlim(low / 8.0, high * 4.0)
+    axes.set_xlim(low / max(8.0, (high / low) ** 0.35), high * 4.0)
     axes.set_ylim(best[-1].error / 3.0, min(best[0].error * 3.0, 3.0))

@@ -63,30 +63,31 @@ def _model(rows):
     rows = [row for row in rows if row.part == hull_accuracy.PART]
     if not rows:
         return
-    yield 'Model: error of probes against the hull itself'
-    least = min(row.probes for row in rows)
-    for law, placement in (('column', 'gauss'), ('column', 'midpoint'), ('column', 'corner'),
-                           ('spring', 'gauss'), ('spring', 'corner')):
-        found = next(row for row in rows if (row.scene, row.quantity, row.law, row.placement,
-                                             row.probes) == ('box', 'GM', law, placement, least))
-        yield (f'  GM of the barge, {least} probes, {law}, {placement}: '
-               + _percent(found, '+.3g'))
+    yield 'Model: error against the hull itself (CPU time of a step)'
     for shape in hull_accuracy.SHAPES:
-        found = [row for row in rows if (row.scene, row.quantity, row.law, row.placement)
-                 == (shape.name, hull_accuracy.GZ_SMALL, 'column', 'gauss')]
-        yield (f'  {hull_accuracy.GZ_SMALL} of the {shape.name}, columns at Gauss points: '
-               + ', '.join(f'{_percent(row)} ({row.probes})' for row in found))
+        for quantity in ('GM', *hull_accuracy.RIGHTING.values()):
+            yield from _models(rows, shape.name, quantity)
+    for scene in hull_accuracy.RATIOS:
+        yield from _models(rows, scene, 'motion')
 
 
-def _percent(row, form='.2g'):
-    return 'exact' if abs(row.percent) < EXACT else f'{row.percent:{form}} %'
+def _models(rows, scene, quantity):
+    for model in ('springs', 'columns', 'panels'):
+        found = sorted((row for row in rows if (row.scene, row.quantity, row.model)
+                        == (scene, quantity, model)), key=lambda row: row.panels or row.probes)
+        yield f'  {quantity} of the {scene}, {model}: ' + ', '.join(
+            f'{row.panels or row.probes} {_percent(row)} ({1e6 * row.cpu / row.rate:.2g} µs)'
+            for row in found)
+
+
+def _percent(row):
+    return 'exact' if abs(row.percent) < EXACT else f'{row.percent:.3g} %'
 
 
 def _fronts(rows):
     for name, best in fronts(rows).items():
-        yield f'Both at once: {name}, settings that nothing else beats'
+        yield f'Both at once: {name}, the cheapest settings that start without a warning'
         for row in best:
-            probes = ('' if row.placement == 'as given' else
-                      ', hull.probes: [{}, {}]'.format(*row.placement.split('x')))
-            yield (f'  {row.error:.2g} m, {1e6 * row.cpu:.3g} µs: integrator: {row.integrator}, '
-                   f'rate: {float(row.rate)}, substeps: 1{probes}')
+            setting = pareto_front.setting_of(row)
+            yield f'  {row.error:.2g} m, {1e6 * row.cpu:.3g} µs: ' + ', '.join(
+                f'{name}: {value}' for name, value in setting.values().items())

@@ -25,8 +25,9 @@ class Row:
     One measurement; fields that do not apply are None and stay empty in the file.
 
     ``part`` 'time stepping', 'model' or 'both'; ``scene`` or hull; ``integrator``; ``rate`` steps
-    per s; ``probes``, how many; ``placement`` and ``law`` of them; ``quantity`` that was
-    compared, where it is no motion; ``evaluations`` of the force and ``cpu`` s per simulated
+    per s; ``model`` of the hull, springs, columns or panels, with so many ``probes`` and
+    ``panels``; ``grid`` of its probes, as 4x2, and ``panel_size`` m as a parameter file has them;
+    ``quantity`` that was compared; ``evaluations`` of the force and ``cpu`` s per simulated
     second; ``position``, ``rotation`` and ``error`` (both in one) m; ``percent`` of the true
     value; ``front`` 1 on the front of settings that nothing else beats, else 0.
     """
@@ -35,9 +36,11 @@ class Row:
     scene: str
     integrator: str = None
     rate: float = None
+    model: str = None
     probes: int = None
-    placement: str = None
-    law: str = None
+    panels: int = None
+    grid: str = None
+    panel_size: float = None
     quantity: str = None
     evaluations: float = None
     cpu: float = None
@@ -48,7 +51,8 @@ class Row:
     front: int = None
 
 
-UNITS = {'rate': 'rate_hz', 'evaluations': 'force_evaluations_per_s', 'cpu': 'cpu_s_per_s',
+UNITS = {'rate': 'rate_hz', 'panel_size': 'panel_size_m',
+         'evaluations': 'force_evaluations_per_s', 'cpu': 'cpu_s_per_s',
          'position': 'position_error_m', 'rotation': 'rotation_error_m', 'error': 'error_m',
          'percent': 'error_percent', 'front': 'on_front'}
 COLUMNS = tuple(UNITS.get(field.name, field.name) for field in fields(Row))

@@ -51,16 +51,14 @@ def measured(task):
     if integrator is None:
         error = reference_error(run, truth)
         return [Row(PART, name, 'reference', probes=len(run.boat.hull.positions),
-                    law=run.boat.hull.law, position=error.position, rotation=error.rotation,
-                    error=error.total)]
+                    position=error.position, rotation=error.rotation, error=error.total)]
     rows = []
     for cost in QUICK_COSTS if quick else FULL_COSTS:
         rate = cost / force_evaluations(integrator, 1.0)
         if rate * run.duration < 10:
             continue
         error = measure(run, truth, integrator, rate)
-        rows.append(Row(PART, name, integrator, rate, len(run.boat.hull.positions),
-                        law=run.boat.hull.law,
+        rows.append(Row(PART, name, integrator, rate, probes=len(run.boat.hull.positions),
                         evaluations=force_evaluations(integrator, rate),
                         position=error.position, rotation=error.rotation, error=error.total))
     return rows
