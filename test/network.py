@@ -25,6 +25,21 @@ def ip(*words, check=True):
     return subprocess.run(['ip', *words], check=check, capture_output=True, text=True)
 
 
+def may_make_namespaces():
+    """Return whether this user may make network namespaces and links between them."""
+    name = f'boat_buoyancy_{os.getpid()}'
+    try:
+        ip('netns', 'add', name)
+        ip('netns', 'exec', name, 'true')
+        ip('-n', name, 'link', 'add', 'one', 'type', 'veth', 'peer', 'name', 'other')
+    except (OSError, subprocess.CalledProcessError):
+        return False
+    finally:
+        if os.path.exists(f'/run/netns/{name}'):
+            ip('netns', 'del', name, check=False)
+    return True
+
+
 class Network:
     """
     A boat and other hosts, each on a link of its own to the boat.

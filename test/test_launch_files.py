@@ -27,6 +27,7 @@ from types import ModuleType, SimpleNamespace
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.scene import parameter_file
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
+from boat_buoyancy.physics.scene.scene import scene_from_values
 import pytest
 import yaml
 
@@ -105,7 +106,7 @@ def scene_of(node):
     values = dict(flat(section['ros__parameters'] or {}))
     values.update(overrides)
     values.pop('use_sim_time', None)
-    return load_scene(values)
+    return scene_from_values(values, folder=Path(file).parent)
 
 
 @pytest.mark.parametrize('scene', SCENES)
@@ -224,4 +225,5 @@ def test_two_boats_take_every_argument_of_one_or_refuse_it(load):
     assert {*one.ARGUMENTS} == {*two.NOT_SHARED, *two.SET_FOR_EACH} | passed_on
     # Not set for a boat, so that the included file sees what the command line gave.
     _, include = two.boat('red', 'default', '0.0').arguments[0]
-    assert not {'use_sim_time', 'publish_tf', 'rviz'} & dict(include.options['launch_arguments']).keys()
+    given = dict(include.options['launch_arguments'])
+    assert not {'use_sim_time', 'publish_tf', 'rviz'} & given.keys()

@@ -76,7 +76,8 @@ def report(path):
         out, err = io.StringIO(), io.StringIO()
         with redirect_stdout(out), redirect_stderr(err):
             assert main([str(path), '--json']) == 0
-        assert err.getvalue() == ''
+        # Of a hull of many panels the step is compiled, once on a machine.
+        assert err.getvalue() == '' or 'compiling the step' in err.getvalue()
         REPORTS[content] = json.loads(out.getvalue(), parse_constant=pytest.fail)
     return REPORTS[content]
 

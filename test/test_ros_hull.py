@@ -24,7 +24,6 @@ from std_msgs.msg import Float64MultiArray
 from visualization_msgs.msg import Marker, MarkerArray
 
 CONFIG = Path(__file__).parents[1] / 'config'
-pytestmark = pytest.mark.xdist_group('ros_hull')
 
 
 @pytest.fixture(scope='module')

@@ -15,7 +15,7 @@
 """
 A network that drops: remote hosts in network namespaces, and links that are cut.
 
-Without the right to make namespaces only what needs none is tested.
+Without the right to make namespaces only what needs none is tested (see conftest).
 """
 
 import os
@@ -23,7 +23,7 @@ import subprocess
 import sys
 
 from boat_buoyancy.ros import figures, network
-from network import ip, Network
+from network import Network
 import pytest
 from ros_probe import BoatProcess
 
@@ -49,24 +49,6 @@ with Probe(sys.argv[1], sys.argv[2]) as one:
         values = {item.key: item.value for item in seen[-1].status[0].values}
         print(nanoseconds(seen[-1].header.stamp) / 1e9, values['steps'], len(poses), flush=True)
 """
-
-
-def may_make_namespaces():
-    """Return whether this user may make network namespaces."""
-    name = f'boat_buoyancy_{os.getpid()}'
-    try:
-        ip('netns', 'add', name)
-        ip('netns', 'exec', name, 'true')
-    except (OSError, subprocess.CalledProcessError):
-        return False
-    finally:
-        if os.path.exists(f'/run/netns/{name}'):
-            ip('netns', 'del', name, check=False)
-    return True
-
-
-needs_namespaces = pytest.mark.skipif(
-    not may_make_namespaces(), reason='network namespaces cannot be made here')
 
 
 class Voyage:
@@ -124,7 +106,7 @@ def rates(voyage, seconds):
             return (more_steps - steps) / lasted, (more_poses - poses) / lasted
 
 
-@needs_namespaces
+@pytest.mark.namespaces
 @pytest.mark.parametrize('carrier', [True, False])
 @pytest.mark.parametrize(('seconds', 'queue'), [
     (5.0, None), (5.0, FILLING), pytest.param(20.0, None, marks=pytest.mark.long),
@@ -143,7 +125,7 @@ def test_the_rate_is_held_while_the_link_to_one_of_two_hosts_is_cut(carrier, sec
         assert queue or heard == pytest.approx(RATE, rel=0.02)
 
 
-@needs_namespaces
+@pytest.mark.namespaces
 def test_with_sends_that_wait_the_node_stands_still_and_names_publishing():
     with Voyage({'FASTDDS_BUILTIN_TRANSPORTS': 'DEFAULT'}, FILLING) as voyage:
         voyage.look()

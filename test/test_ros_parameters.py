@@ -124,9 +124,11 @@ def probe(boat):
 
 def test_every_parameter_is_described_with_unit_and_range(probe):
     names = [name for name in probe.list_parameters() if name in PARAMETERS]
-    # Those of probes one by one do not exist beside a hull shape, nor those of no thrusters.
+    # Those of probes one by one do not exist beside a box, nor those of a twin, a mesh and no
+    # thrusters.
     assert set(PARAMETERS) - set(names) == {
-        'probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness'} | {
+        'probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness',
+        'hull.spacing', 'hull.mesh', 'hull.scale'} | {
         name for name in PARAMETERS if name.startswith('thrusters.')}
     described = probe.describe(names)
     for name in names:

@@ -39,8 +39,9 @@ class View:
     What stays the same in every frame.
 
     ``shells``, corners (n, 3) m of each part of the hull, and ``probes`` (p, 3) m in the body
-    frame; ``reach`` m of water shown to every side; ``low`` and ``high`` m, the heights shown; ``swing`` m, the
-    highest wave; ``rows`` of the run to draw; ``pace``, simulated over shown time; ``sea``.
+    frame; ``reach`` m of water shown to every side; ``low`` and ``high`` m, the heights shown;
+    ``swing`` m, the highest wave; ``rows`` of the run to draw; ``pace``, simulated over shown
+    time; ``sea``.
     """
 
     shells: list

@@ -34,7 +34,7 @@ from ..physics.hydrostatics.righting_arm import (
     righting_arms, surface_righting_arms, trim, wall_sided_heel)
 from ..physics.hydrostatics.wetted_surface import wetted_surface
 from ..physics.scene.scene import load_scene
-from ..physics.step_size.limits import max_stable_steps
+from ..physics.step_size.limits import max_stable_steps, notice_of
 
 PROGRAM = 'buoyancy_report'
 HEEL_DEGREES = np.arange(0.0, 181.0, 5.0)
@@ -189,6 +189,8 @@ def main(arguments=None):
 
     def report():
         scene = load_scene(given.scene)
+        if compiling := notice_of(scene.boat):
+            print(f'{PROGRAM}: {compiling}', file=sys.stderr)
         if given.plot is not None:
             command_line.check_picture('--plot', given.plot, ('.png',))
             from . import righting_arm_plot

@@ -76,7 +76,7 @@ def corner(places, i):
 def wet_part(places, i, j, k):
     """Return how many triangles the wet part of a triangle is, and its corners a, b, c, d."""
     a, b, c = corner(places, i), corner(places, j), corner(places, k)
-    wet = (a[DEPTH] > 0.0) + (b[DEPTH] > 0.0) + (c[DEPTH] > 0.0)
+    wet = int(a[DEPTH] > 0.0) + int(b[DEPTH] > 0.0) + int(c[DEPTH] > 0.0)
     if wet == 3:
         return 1, a, b, c, c
     if wet == 0:

@@ -144,8 +144,8 @@ def _table():
                   'below the origin. Higher lowers the body frame in the water.',
                   at_least=-1e6, at_most=1e6, **fixed),
         Parameter('hull.middle', 'float', 0.0, 'm',
-                  'x of the middle of a box or twin in the body frame. Higher moves the hull ahead '
-                  'of the origin.', at_least=-1e6, at_most=1e6, **fixed),
+                  'x of the middle of a box or twin in the body frame. Higher moves the hull '
+                  'ahead of the origin.', at_least=-1e6, at_most=1e6, **fixed),
         Parameter('hull.mesh', 'path', None, '',
                   'File of a closed triangle mesh (STL, OBJ or PLY) in body axes; its path is '
                   'from the folder of the parameter file. Needed for the shape mesh.', **fixed),

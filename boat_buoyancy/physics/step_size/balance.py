@@ -89,6 +89,8 @@ def at_rest(boat: Boat) -> Balance:
     One that turns over or finds no rest is ballasted until it lies level, its centre of mass moved
     over the centre of its lift; one that sinks weighs no more than its lift.
     """
+    # In still water the facets of the surface are as exact as finer panels.
+    boat = boat if boat.hull.panels is None else boat.on_surface or boat
     lies = floats(boat) and rest_attitude(boat) is not None and not turns_over(boat)
     state = rest_state(boat) if lies else floating_state(boat) if floats(boat) else under_water(
         boat)

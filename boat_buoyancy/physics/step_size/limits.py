@@ -29,7 +29,7 @@ from .balance import at_rest, Balance, displaced, displacement, drifting, withou
 from ..boat.boat import Boat
 from ..boat.records import hull_view
 from ..boat.state import to_rows
-from ..compiled import calling, compile_now, compiled
+from ..compiled import calling, compile_now, compiled, notice
 from ..forces.load import load_at
 from ..hydrostatics.rest import MANY_PIECES
 from ..hydrostatics.stiffness import STILL_WATER
@@ -158,6 +158,13 @@ def max_stable_steps(boat: Boat) -> dict[str, float | None]:
     None = no limit, 0.0 = never stable: the combination of `StepLimit`.
     """
     return {integrator: combined_step(boat, integrator) for integrator in INTEGRATORS}
+
+
+def notice_of(boat: Boat) -> str:
+    """Return a sentence when the limits of a boat are about to take a while, else ''."""
+    if boat.pieces < MANY_PIECES:
+        return ''
+    return notice(calling(one_step, step=INTEGRATORS['euler'].step))
 
 
 def least(*steps):
