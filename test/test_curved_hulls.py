@@ -128,9 +128,9 @@ def test_righting_arm_of_the_v_hull_is_that_of_its_cross_section(exact):
 def test_columns_are_exact_for_a_box_up_to_its_deck_edge_and_not_beyond(rows):
     for what, bound in (('draft', 1e-10), ('GM', 1e-6), (quantity(25), 1e-8)):
         assert np.abs(errors(rows, 'box', 'columns', what)).max() < bound
-    # Four are 0.21 off at 45 degrees, of a greatest arm of 0.64 (wall-sided: 0.96 at 40 degrees),
-    # and of the wrong sign near 90: a fifth, rms.
-    assert 10.0 < errors(rows, 'box', 'columns', quantity(180))[0] < 50.0
+    # Four give 1.063 m at 40 degrees in place of 0.629, nearly the greatest arm: 69 % off there
+    # and at 140 degrees, and by less elsewhere.
+    assert 69.0 * math.sqrt(2.0 / 36.0) < errors(rows, 'box', 'columns', quantity(180))[0] < 69.0
 
 
 @pytest.mark.parametrize('shape', [BOX, V_HULL], ids=lambda shape: shape.name)
@@ -173,7 +173,7 @@ def test_panels_in_waves_err_as_the_square_of_their_size():
     # Of 4, 8 and 16 on a wave.
     assert panels[1] / panels[2] == pytest.approx(4.0, rel=0.2)
     assert panels[2] / panels[3] == pytest.approx(4.0, rel=0.2)
-    # The same limit of columns, but for what the surface does between them.
+    # Columns come to a limit of their own, near that.
     columns = errors(rows, scene, 'columns', 'motion')
     assert columns[1] < 1.0 < 10.0 < columns[0]
     assert min(errors(rows, scene, 'springs', 'motion')) > 10.0
@@ -185,7 +185,7 @@ def test_cost_of_a_model_is_that_of_a_step_of_it():
     by_size = {(row.model, row.probes, row.panels): row.cpu for row in rows}
     assert by_size['columns', 144, 0] > 3.0 * by_size['columns', 4, 0]
     largest = max(size for model, _, size in by_size if model == 'panels')
-    assert by_size['panels', 24, largest] > by_size['columns', 4, 0]
+    assert by_size['panels', 16, largest] > by_size['columns', 4, 0]
 
 
 def test_the_picture_of_righting_arms_shows_four_springs_four_columns_and_twelve_panels():

@@ -29,8 +29,6 @@ MARGIN_ORDER, MARGIN = 1, 4.0
 WRONG = 0.1
 # A finer step changes the error by less than this part: the step is not what limits it.
 UNCHANGED = 0.1
-# The integrators that show it: of second order and more, they do not level off by themselves.
-CONVERGING = ('leapfrog', 'rk4')
 
 
 @dataclass(frozen=True)
@@ -110,7 +108,7 @@ def _is_hopeless(tried, setting, tolerance):
             alike[-1].setting.rate / setting.rate) ** (order + MARGIN_ORDER):
         return True
     return any(_is_flat(tried, replace(setting, integrator=integrator), tolerance)
-               for integrator in CONVERGING)
+               for integrator in settings.CONVERGING)
 
 
 def _is_flat(tried, setting, tolerance):
@@ -146,7 +144,7 @@ def _unpredictable(trial, tolerance, second):
     return Advice(None, None, None,
                   f'The true motion limits it: by {trial.compared} it is known to '
                   f'{trial.own_error:.2g} m, so {tolerance:g} m means nothing here; damping, a '
-                  f'gentler sea or a tolerance of {5.0 * trial.own_error:.1g} m do.',
+                  f'gentler sea or a tolerance of {5.0 * trial.own_error:.2g} m do.',
                   trial.stretch.name, second.name, trial.stretch.duration)
 
 

@@ -44,7 +44,7 @@ STEEPNESS, DIRECTION = 1.0 / 50.0, 0.6
 # Panels on the length of a wave, and on that of the hull itself, whose error falls as the square.
 PANELS_ON_WAVE, FINE = (2, 4, 8, 16), 64
 # Where probe damping is taken of a hull of panels in waves; of the hull itself.
-DAMPED_AT, FINELY_DAMPED_AT = (6, 4), (12, 12)
+DAMPED_AT, FINELY_DAMPED_AT = (4, 4), (12, 12)
 # The same step for all models, so that its own error cancels; the cost is of so many.
 RATE, WAVE_DURATION = 30.0, 30.0
 

@@ -157,5 +157,5 @@ def _reciprocal(microseconds):
 def _front_limits(axes, best):
     """Leave room on the left for the labels."""
     low, high = 1e6 * best[0].cpu, 1e6 * best[-1].cpu
-    axes.set_xlim(low / max(8.0, (high / low) ** 0.35), high * 4.0)
+    axes.set_xlim(low / max(8.0, (high / low) ** 0.3), high * 4.0)
     axes.set_ylim(best[-1].error / 3.0, min(best[0].error * 3.0, 3.0))

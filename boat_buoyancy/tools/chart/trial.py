@@ -85,8 +85,7 @@ class Trial:
         coarser = stretch.run(surface_values(FEWER_PROBES, double))
         truth = run.solve(**options)
         counts = (len(of.boat.hull.panels.triangles) for of in (run, coarser))
-        # The error falls with the square of the edge: what is left is a third of what is gained.
-        return cls(stretch, truth, apart(run, truth, coarser.solve(**options)).total / 3.0,
+        return cls(stretch, truth, apart(run, truth, coarser.solve(**options)).total,
                    'the hull as {} panels and as {}'.format(*counts), boat_length(run.boat))
 
     def run(self, probes, panel_size=None):
