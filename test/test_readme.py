@@ -183,23 +183,31 @@ def cpu_times(task, *integrators):
     return [found[integrator] for integrator in integrators]
 
 
-def errors(*figures):
-    """Return what the chart wrote in % of a figure of a model."""
-    return [re.search(rf'^  {re.escape(figure)}: (\S+) %$', WRITTEN, re.MULTILINE)[1]
-            for figure in figures]
+def figure(what, model, count):
+    """Return what the chart wrote of so many springs, columns or panels: (error in %, µs)."""
+    line, = re.findall(rf'^  {what}, {model}: (.*)$', WRITTEN, re.MULTILINE)
+    return re.search(rf'(?:^|, ){count} (?:(\S+) %|exact) \((\S+) µs\)', line).groups()
 
 
 def settings():
-    """Return (error in m, integrator, rate, probes) of the settings that nothing else beats."""
-    return re.findall(r'^  (\S+) m, .*: integrator: (\w+), rate: (\S+), .*: (\[.*\])$', WRITTEN,
-                      re.MULTILINE)
+    """Return (error in m, integrator, rate, the rest) of the settings that nothing else beats."""
+    return re.findall(r'^  (\S+) m, .*: integrator: (\w+), rate: (\S+), substeps: 1, (.*)$',
+                      WRITTEN, re.MULTILINE)
 
 
 def test_every_figure_of_accuracy_is_the_one_that_the_chart_wrote():
     first = 'leapfrog', 'rk4', 'symplectic_euler'
-    lag = [max(float(part) for part in re.findall(r'([\d.]+) % \(36\)', WRITTEN))]
-    within = {setting[1:]: setting[0] for setting in settings()}
-    finest = next(setting for setting in settings() if float(setting[0]) < 0.001)
+    box, round_, small = 'GM of the box', 'GZ to 180 deg of the box', 'GZ to 25 deg of the '
+    curved = [float(figure(f'{small}{hull}', 'columns', 36)[0])
+              for hull in ('Wigley hull', 'V hull')]
+    waves = 'motion of the box in waves of 1 L'
+    most, = re.findall(rf'^  {waves}, panels: .*, (\d+) \S+ % \(\S+ µs\)$', WRITTEN, re.MULTILINE)
+    four_by_two = [setting for setting in settings()
+                   if setting[3] == 'hull.model: columns, hull.probes: [4, 2]']
+    panels = [setting for setting in settings() if setting[3].startswith('hull.model: panels')]
+    centimetre = next(setting for setting in panels if float(setting[0]) < 0.01)
+    finest = next(setting for setting in panels if float(setting[0]) < 0.001)
+    assert 'hull.panel_size: 0.0' in centimetre[3]
     claims = [
         ('To 10 mm in an irregular sea `leapfrog` needs {} force evaluations per simulated '
          'second, `rk4` {} and the plain game loop {}',
@@ -213,14 +221,22 @@ def test_every_figure_of_accuracy_is_the_one_that_the_chart_wrote():
          cpu_times('stiff barge to 1 mm', 'implicit', 'leapfrog')),
         ('({} evaluations where `leapfrog` takes {})',
          evaluations('stiff barge in swell to 10 mm', 'implicit', 'leapfrog')),
-        ('miss GM by {} %, and springs at the right places still by {} %',
-         errors(*(f'GM of the barge, 4 probes, spring, {at}' for at in ('corner', 'gauss')))),
-        ('36 columns for {:g} % of its righting arm to 25 degrees', lag),
-        ('For the barge in sea state 5, `leapfrog` at 4.0 Hz on `[4, 2]` probes is within {} m, '
-         'at 8.0 Hz within {} m',
-         [within['leapfrog', rate, '[4, 2]'] for rate in ('4.0', '8.0')]),
-        ('below 1 mm it is `{}` at {} Hz on `{}`', finest[1:])]
-    assert 'barge in sea state 5' in WRITTEN and 'GZ to 25 deg of the Wigley hull' in WRITTEN
+        ('a step of four columns takes {} µs, one of twelve panels {}.',
+         [figure(box, 'columns', 4)[1], figure(box, 'panels', 12)[1]]),
+        ('miss its GM by {} % and its righting arm all the way round by {} %, and a hundred and '
+         'forty-four of them still by {} %', [figure(box, 'springs', 4)[0], *(
+             figure(round_, 'springs', count)[0] for count in (4, 144))]),
+        ('miss by {} % all the way round when they are four, by {} % when they are a hundred and '
+         'forty-four', [figure(round_, 'columns', count)[0] for count in (4, 144)]),
+        ('36 columns for {:g} % of its righting arm to 25 degrees', [max(curved)]),
+        ('16 columns are within {} % of the amplitude', figure(waves, 'columns', 16)[:1]),
+        ('only many panels are: within {} %', figure(waves, 'panels', most)[:1]),
+        ('For the barge in sea state 5, `leapfrog` at {} Hz on `[4, 2]` columns is within {} m',
+         [four_by_two[0][2], four_by_two[0][0]]),
+        ('with `leapfrog` at {} Hz within {} m', [centimetre[2], centimetre[0]]),
+        ('below 1 mm it is `{}` at {} Hz on panels of {} m',
+         [*finest[1:3], finest[3].rpartition(' ')[2]])]
+    assert 'barge in sea state 5' in WRITTEN and centimetre[1] == four_by_two[0][1] == 'leapfrog'
     text = ' '.join(section('How accurate, and how fast').split())
     for words, figures in claims:
         claim = words.format(*figures)

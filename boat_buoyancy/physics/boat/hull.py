@@ -85,8 +85,12 @@ class Hull:
         By itself an eighth of the sea's shortest wave that counts, in still water the facets that
         the surface has; never more than `MAX_PANELS`.  The hull itself where it has them already.
         """
-        longest = self.panel_size or sea.shortest_length / PANELS_A_WAVE
-        panels = self.surface.refined(max(longest, self.finest_panel))
+        longest = max(self.panel_size or sea.shortest_length / PANELS_A_WAVE, self.finest_panel)
+        panels = self.surface.refined(longest)
+        while len(panels.triangles) > max(MAX_PANELS, len(self.surface.triangles)):
+            # Long edges cut in halves can leave some four times as many as they have to be.
+            longest *= 1.2
+            panels = self.surface.refined(longest)
         if self.panels is not None and len(self.panels.triangles) == len(panels.triangles):
             return self
         return replace(self, panels=panels)
