@@ -30,7 +30,7 @@ LAWS = ('spring', 'soft', 'column')
 # Panels on the length of a wave, which leave 1 % of error where the pressure is worst.
 PANELS_A_WAVE = 8
 # More panels than these cost milliseconds a step.
-MAX_PANELS = 20_000
+MAX_PANELS = 30_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +98,8 @@ class Hull:
     @property
     def finest_panel(self) -> float:
         """Return the longest edge in m of about `MAX_PANELS` panels on the surface."""
-        # A triangle whose edges are halved until none is too long has some 0.2 of its square.
-        return math.sqrt(self.surface.area / (0.2 * MAX_PANELS))
+        # Triangles whose edges are halved until none is too long have at least 0.13 of its square.
+        return math.sqrt(self.surface.area / (0.13 * MAX_PANELS))
 
     @cached_property
     def share(self) -> np.ndarray:
