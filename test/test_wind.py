@@ -138,6 +138,18 @@ def test_a_new_wind_blows_at_once_while_the_sea_fades():
     np.testing.assert_allclose(gust.elevation(x, x, 1.5), fading.elevation(x, x, 2.0), atol=1e-12)
 
 
+def test_gusts_of_a_simulation_act_with_the_next_step_and_leave_its_boat():
+    boat = blown_boat([2.0, 6.0, -4.0])
+    simulation = Simulation(boat, Sea(), AFLOAT)
+    for wind in ((10.0, 0.0), (0.0, -5.0)):
+        simulation.wind = wind
+        linear, _ = simulation.acceleration()
+        assert linear[:2] == pytest.approx([2.0 * wind[0]**2 / MASS, -6.0 * wind[1]**2 / MASS])
+    with pytest.raises(ValueError, match='wind.velocity'):
+        simulation.wind = (np.nan, 0.0)
+    assert simulation.wind.tolist() == [0.0, -5.0] and simulation.boat is boat
+
+
 @pytest.mark.parametrize(('drag', 'said'), [
     ([1.0, 0.0, 2.0], 'as it is the sway times how far ahead its force acts, got [1.0, 0.0, 2.0]'),
     ([1.0, 1e-9, 2.0], 'expected a yaw of at most 1e+06 m times the sway'),

@@ -131,7 +131,7 @@ class Session:
         if np.array_equal(wind, self.sea.wind):
             return False
         self.sea = self.sea.with_wind(wind)
-        self.simulation.sea = self.simulation.sea.with_wind(wind)
+        self.simulation.wind = wind
         return True
 
     def change(self, scene, plan=None, names=()):
