@@ -18,8 +18,8 @@ Start two boats, red and blue, in one sea.
     ros2 launch boat_buoyancy two_boats.launch.py sea_state:=2
 
 Each boat has a namespace, so that topics are /red/pose and /blue/pose; both listen to one
-/wave_parameters. The sea is a function of the stamp time: both see the same water, and `same_sea`
-warns when they do not.
+/wave_parameters and one /wind. The sea is a function of the stamp time: both see the same water,
+and `same_sea` warns when they do not.
 `use_sim_time`, `publish_tf` and `rviz` are those of `boat.launch.py`, for each of the two.
 """
 
@@ -50,9 +50,10 @@ def check(context):
 
 
 def boat(namespace, scene, y):
-    """Return one boat at y m, listening to the waves of all."""
+    """Return one boat at y m, listening to the waves and the wind of all."""
     return GroupAction([
         SetRemap('wave_parameters', '/wave_parameters'),
+        SetRemap('wind', '/wind'),
         IncludeLaunchDescription(
             PythonLaunchDescriptionSource(os.path.join(LAUNCH, 'boat.launch.py')),
             launch_arguments={**NOT_SHARED, 'namespace': namespace, 'scene': scene, 'y': y,

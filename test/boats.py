@@ -19,6 +19,7 @@ The reference boat has 1000 kg on four probes of 4905 N/m, so it floats 0.5 m de
 sqrt(19620 / 1000) = 4.42944692 rad/s.
 """
 
+from dataclasses import replace
 import math
 import warnings
 
@@ -96,6 +97,11 @@ def wind_sea():
     """Return a sea of four waves from several sides over a current."""
     return Sea([[0.15, 5.0, 0.3, 0.2], [0.10, 3.7, -1.0, 1.0], [0.08, 2.9, 2.5, 2.0],
                 [0.05, 2.1, 0.9, 3.0]], current=[0.3, -0.2])
+
+
+def windy():
+    """Return a `Damping` with drag in the air on top of `all_damping`."""
+    return replace(all_damping(), wind=[7.0, 11.0, -9.0])
 
 
 def random_states(shape, seed, *, height=0.5, tilt=0.5, speed=0.5):

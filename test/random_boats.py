@@ -14,6 +14,7 @@
 
 """Boats, seas, starts and thrusts drawn at random over ranges that break ordinary methods."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 from boat_buoyancy.physics.boat.boat import Boat, Damping
@@ -86,6 +87,16 @@ def draw(seed, *, drag=True):
     push = random.normal(size=(len(STARTS), 6)) * weight * [1.0, 1.0, 1.0, *[size] * 3]
     thrust = push * log_uniform(random, 1e-2, 10.0) * (random.random() < 0.5)
     return Draw(boat, sea, starts(random), thrust, log_uniform(random, 1e-3, 1.0))
+
+
+def blown(drawn, seed):
+    """Return a `Draw` with drag in the air as strong as that in water, in wind up to a storm."""
+    random, boat = np.random.default_rng([seed, 1]), drawn.boat
+    surge, sway = boat.mass * log_uniform(random, 1e-3, 1e2, 2)
+    wind = [surge, sway, sway * boat.size * random.uniform(-2.0, 2.0)]
+    return drawn._replace(
+        boat=boat.with_damping(replace(boat.damping, wind=wind)),
+        sea=drawn.sea.with_wind(random.normal(size=2) * log_uniform(random, 0.1, 50.0)))
 
 
 def inertia(random, scale):

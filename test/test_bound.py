@@ -22,7 +22,7 @@ from boat_buoyancy.physics.stepping.speed_bound import speed_norm, SpeedBound
 from boats import reference_boat, start, turned, undamped, wind_sea
 import numpy as np
 import pytest
-from random_boats import draw
+from random_boats import blown, draw
 
 PERIODS = 40
 # What floating-point sums of this length can be off by.
@@ -80,6 +80,11 @@ def test_no_step_of_implicit_passes_the_bound_of_two_thousand_random_boats():
     assert max(ratios) <= 1.0 + ROUND_OFF
 
 
+def test_no_step_of_implicit_passes_the_bound_in_wind_that_storms_at_random_boats():
+    ratios = [worst_ratio(blown(draw(seed), seed)) for seed in range(250)]
+    assert max(ratios) <= 1.0 + ROUND_OFF
+
+
 @pytest.mark.long
 def test_no_step_of_implicit_passes_the_bound_of_eighty_thousand_random_boats(record_property):
     ratios = [worst_ratio(draw(seed)) for seed in range(250, 10250)]
@@ -133,6 +138,17 @@ def test_the_bound_is_the_published_formula():
     a = 100.0 + 0.1 * forcing
     assert bound.after(100.0, 0.1, 300.0, 150.0) == pytest.approx(
         (a + np.sqrt(a**2 + 4.0 * 1.05 * 0.1 * power)) / 2.1, rel=1e-12)
+
+
+def test_the_bound_in_wind_is_that_of_drag_at_the_point_where_it_acts():
+    # The side force acts 1.5 m ahead of a boat of 1000 kg and at least 500 kg m^2, wind 10 m/s.
+    boat = reference_boat(damping=undamped(wind=[3.0, 8.0, 12.0]))
+    bound = SpeedBound.of(boat, Sea(wind=[6.0, 8.0]))
+    still = SpeedBound.of(boat, Sea())
+    assert still.power == still.power_rate == 0.0
+    assert bound.power == pytest.approx(10.0**2 / 4.0 * 8.0 * 10.0, rel=1e-12)
+    assert bound.power_rate == pytest.approx(
+        10.0**2 / 4.0 * 8.0 * np.sqrt(1.0 / 1000.0 + 1.5**2 / 500.0), rel=1e-12)
 
 
 def test_a_column_of_hull_counts_the_farther_of_its_two_ends():

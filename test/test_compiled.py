@@ -31,7 +31,7 @@ from boat_buoyancy.physics.boat.surface import box_surface
 from boat_buoyancy.physics.stepping.integrators import INTEGRATORS
 from boat_buoyancy.physics.stepping.march import begin, LOAD_SIZE, march_by, PACE
 from boat_buoyancy.physics.stepping.speed_bound import SpeedBound
-from boats import asymmetric_boat, LAWS, random_states, wind_sea
+from boats import asymmetric_boat, LAWS, random_states, wind_sea, windy
 import numpy as np
 import pytest
 
@@ -64,8 +64,8 @@ def python(code, path=PACKAGE.parent, **environment):
 
 
 def fleet(boat, count=20):
-    """Return the arguments of `march` for boats thrown about in waves over a current."""
-    sea, (corners, triangles) = wind_sea(), boat.panel_rows
+    """Return the arguments of `march` for boats thrown about in waves, current and wind."""
+    sea, (corners, triangles) = wind_sea().with_wind((8.0, -6.0)), boat.panel_rows
     pace = (0, 0, 2, 50.0, SpeedBound.of(boat, sea).record.item())
     return [np.array([boat.record] * count), np.array([boat.probe_records] * count),
             corners[None].copy(), triangles[None].copy(),
@@ -86,7 +86,7 @@ def panelled(boat):
 def test_compiled_and_plain_agree_to_round_off(integrator):
     push = (np.array([[300.0, -50.0, 20.0, 10.0, -30.0, 60.0]]), 0, 0, 7, 1)
     boats = [asymmetric_boat(law) for law in LAWS]
-    for boat in (*boats, panelled(boats[0])):
+    for boat in (*boats, panelled(boats[0]), asymmetric_boat(damping=windy())):
         arrays = fleet(boat)
         lists = [*map(readable, arrays[:7]), *(values.tolist() for values in arrays[7:11]),
                  arrays[11].copy(), arrays[12].copy()]

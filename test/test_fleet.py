@@ -49,7 +49,8 @@ def one_of_each(place):
     hull = Hull(random.uniform(-1.0, 1.0, (5, 3)), budget, random.uniform(0.3, 2.0, 5),
                 LAWS[place % 3])
     damping = (all_damping(), undamped(), undamped(probe=900.0), Damping(),
-               undamped(linear=[80.0] * 6), undamped(quadratic=[0.0, 50.0, 0.0, 9.0, 0.0, 9.0]),
+               undamped(linear=[80.0] * 6, wind=[5.0, 9.0, 7.0]),
+               undamped(quadratic=[0.0, 50.0, 0.0, 9.0, 0.0, 9.0]),
                undamped(air_angular_retention=[0.7, 0.8, 0.9]))[place % 7]
     inertia = mass * random.uniform(0.5, 1.0, 3)
     if place % 2:
@@ -60,7 +61,8 @@ def one_of_each(place):
 def different():
     """Return boats, seas, starts, substeps and thrust (20, COUNT, 6), all of them different."""
     seas = [Sea(), wind_sea(), Sea(waves(5, 1), depth=4.0), Sea(waves(19, 2), (0.5, -0.3)),
-            fade(wind_sea(), Sea(waves(3, 3), (0.0, 1.0)), 0.05, 0.1), Sea(current=(1.0, 0.0)),
+            fade(wind_sea(), Sea(waves(3, 3), (0.0, 1.0), wind=(8.0, -6.0)), 0.05, 0.1),
+            Sea(current=(1.0, 0.0)),
             Sea(waves(33, 4))]
     thrust = np.random.default_rng(2).normal(size=(20, COUNT, 6)) * 500.0
     return SimpleNamespace(

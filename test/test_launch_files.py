@@ -172,8 +172,9 @@ def test_two_boats_are_apart_and_in_one_sea(load, start):
               if action.arguments and isinstance(action.arguments[0], list)]
     boats = []
     for group in groups:
-        remap, include = group.arguments[0]
-        assert remap.arguments == ('wave_parameters', '/wave_parameters')
+        *remaps, include = group.arguments[0]
+        assert [remap.arguments for remap in remaps] == [
+            ('wave_parameters', '/wave_parameters'), ('wind', '/wind')]
         assert Path(include.arguments[0].arguments[0]).name == 'boat.launch.py'
         given = dict(include.options['launch_arguments'])
         given['sea_state'] = given['sea_state'].perform({'sea_state': '3'})
@@ -224,6 +225,6 @@ def test_two_boats_take_every_argument_of_one_or_refuse_it(load):
     passed_on = {'sea_state', 'use_sim_time', 'publish_tf', 'rviz'}
     assert {*one.ARGUMENTS} == {*two.NOT_SHARED, *two.SET_FOR_EACH} | passed_on
     # Not set for a boat, so that the included file sees what the command line gave.
-    _, include = two.boat('red', 'default', '0.0').arguments[0]
+    *_, include = two.boat('red', 'default', '0.0').arguments[0]
     given = dict(include.options['launch_arguments'])
     assert not {'use_sim_time', 'publish_tf', 'rviz'} & given.keys()

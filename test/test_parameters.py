@@ -37,7 +37,7 @@ NO_NUMBER = {'integrator', 'world_frame', 'body_frame', 'publish_clock', 'hull.s
              'publish_tf', 'map_frame'}
 # What the node may change while it runs.
 LIVE = ('boat.mass', 'boat.inertia', 'probes.floatiness', 'probes.stiffness', 'probes.weights',
-        'damping.', 'sea.', 'thrust.timeout')
+        'damping.', 'sea.', 'wind.', 'thrust.timeout')
 
 
 NUMBERS = ('float', 'int', 'float_array', 'int_array')

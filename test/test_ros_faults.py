@@ -25,7 +25,8 @@ import time
 
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
+from geometry_msgs.msg import (PoseWithCovarianceStamped, Vector3, Vector3Stamped,
+                               WrenchStamped)
 import numpy as np
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage, ParameterValue
@@ -149,12 +150,17 @@ def bad_messages():
         message.header.frame_id = frame
         message.pose.pose.position.x, message.pose.pose.orientation.w = x, w
         yield 'initialpose', message
+    for x, z, frame in ((nan, 0.0, ''), (0.0, inf, ''), (1e308, 0.0, ''), (1.0, 0.1, ''),
+                        (1.0, 0.0, 'map')):
+        message = Vector3Stamped(vector=Vector3(x=x, z=z))
+        message.header.frame_id = frame
+        yield 'wind', message
 
 
 @pytest.mark.parametrize('count', [2_000, pytest.param(10_000, marks=pytest.mark.long)])
 def test_malformed_messages_of_every_kind(boat, probe, steady, count):
     kinds = {'thrust': WrenchStamped, 'wave_parameters': Float64MultiArray,
-             'initialpose': PoseWithCovarianceStamped}
+             'initialpose': PoseWithCovarianceStamped, 'wind': Vector3Stamped}
     publishers = {topic: probe.publisher(kind, topic, BEST_EFFORT if topic == 'thrust'
                                          else QoSProfile(depth=1000))
                   for topic, kind in kinds.items()}
@@ -170,7 +176,7 @@ def test_malformed_messages_of_every_kind(boat, probe, steady, count):
     assert place is None or abs(probe.poses[-1].pose.position.x - place.x) < 1.0
     for reason in ('expected finite numbers', 'expected frame_id', 'four numbers a row',
                    'expected an amplitude', 'expected at most 1000 rows',
-                   'times the weight', 'expected a unit quaternion'):
+                   'times the weight', 'expected a unit quaternion', 'wind: expected a z of 0'):
         assert reason in boat.log, reason
     # Throttled: a reason is not said more than once in five seconds.
     assert len(boat.lines) < count / 20

@@ -169,6 +169,8 @@ def test_a_heavier_boat_lies_deeper(probe):
     ({'sea.waves': '[0.1, 4, 0, 0]'}, "type '[0.1, 4.0, 0.0, 0.0]'"),
     ({'sea.waves': '[[1, 4, 0, 0], [0.1, 3, 1, 0]]'},
      "type '[1.0, 4.0, 0.0, 0.0, 0.1, 3.0, 1.0, 0.0]'"),
+    ({'wind.drag': [1.0, 0.0, 2.0]}, 'wind.drag: expected a yaw of at most'),
+    ({'wind.velocity': [1.0]}, 'wind.velocity: expected 2 numbers'),
     ({'sea.current': 'strong'}, "sea.current: expected a list of numbers, got 'strong'"),
 ])
 def test_a_bad_set_is_refused_with_the_reason_and_changes_nothing(probe, values, said):
@@ -228,7 +230,8 @@ def dropped(probe):
 
 
 @pytest.mark.parametrize(('name', 'value'), [
-    ('thrust.timeout', lambda i: 0.5 + 1e-3 * i), ('sea.current', lambda i: [1e-4 * i, 0.0]),
+    ('thrust.timeout', lambda i: 0.5 + 1e-3 * i), ('wind.velocity', lambda i: [1e-2 * i, 0.0]),
+    ('wind.drag', lambda i: [0.1 * i, 0.0, 0.0]), ('sea.current', lambda i: [1e-4 * i, 0.0]),
     ('damping.linear', lambda i: [1.0 * i] * 6), ('boat.mass', lambda i: 2000.0 + i)])
 def test_five_hundred_queued_sets_drop_no_step(probe, name, value):
     before = dropped(probe)

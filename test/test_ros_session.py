@@ -172,6 +172,38 @@ def test_waves_that_came_by_message_stay_when_the_boat_or_the_current_changes():
     assert session.sea.current.tolist() == [1.0, 0.0]
 
 
+def test_a_wind_blows_from_the_next_step_on_and_waves_go_on_fading():
+    session = Session(load_scene({'sea.waves': ROWS, 'sea.transition': 1.0}))
+    session.rebase(START)
+    for _ in range(50):
+        session.step()
+    session.set_waves(Sea([[0.1, 3.0, 0.0, 0.0]]).waves)
+    session.step()
+    before = surface(session)
+    assert session.set_wind((6.0, -2.0)) and not session.set_wind((6.0, -2.0))
+    assert session.simulation.sea.wind.tolist() == session.sea.wind.tolist() == [6.0, -2.0]
+    assert surface(session) == pytest.approx(before, abs=1e-12)
+    for _ in range(120):
+        session.step()
+    # The fade is over, the wind is not.
+    assert isinstance(session.simulation.sea, Sea)
+    assert session.simulation.sea.wind.tolist() == [6.0, -2.0]
+
+
+def test_a_wind_that_came_by_message_stays_until_a_parameter_asks_for_another():
+    calm = {'sea.transition': 0.0}
+    session = Session(load_scene(calm))
+    session.set_wind((6.0, -2.0))
+    for values in ({'boat.mass': 2500.0}, {'sea.current': [1.0, 0.0]}, {'sea.sea_state': 2}):
+        scene = load_scene({**calm, **values})
+        session.change(scene, scene.plan(), values)
+        assert session.sea.wind.tolist() == session.simulation.sea.wind.tolist() == [6.0, -2.0]
+    for wind in ([0.0, 3.0], [0.0, 3.0]):
+        session.set_wind((6.0, -2.0))
+        session.change(load_scene({**calm, 'wind.velocity': wind}), None, {'wind.velocity'})
+        assert session.sea.wind.tolist() == session.simulation.sea.wind.tolist() == wind
+
+
 def test_a_parameter_that_asks_for_waves_takes_the_place_of_those_of_a_message():
     calm = {'sea.transition': 0.0}
     for values in ({**calm, 'sea.waves': ROWS}, {**calm, 'sea.waves': []}):
@@ -210,7 +242,8 @@ def test_neither_another_boat_nor_another_sea_compiles_anything():
     step = machine_code(march_by('leapfrog'))
     before = list(step.signatures)
     session.thrust.hold((100.0, 0.0, 0.0, 0.0, 0.0, 0.0), False, 0.0)
-    for values in ({'boat.mass': 2500.0}, {'sea.sea_state': 3}, {'sea.current': [1.0, 0.0]}):
+    for values in ({'boat.mass': 2500.0}, {'sea.sea_state': 3}, {'sea.current': [1.0, 0.0]},
+                   {'wind.velocity': [5.0, 0.0]}, {'wind.drag': [5.0, 9.0, 1.0]}):
         scene = load_scene({'sea.transition': 0.05, **values})
         session.change(scene, scene.plan())
         for _ in range(7):

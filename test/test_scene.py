@@ -586,6 +586,7 @@ CHANGES = {
     'damping.air_linear_retention': [0.9], 'damping.air_angular_retention': [0.9],
     'damping.linear': [10.0] * 6, 'damping.quadratic': [5.0] * 6,
     'sea.waves': [0.1, 4.0, 0.0, 0.0], 'sea.sea_state': 3, 'sea.current': [0.5, 0.0],
+    'wind.velocity': [3.0, 4.0], 'wind.drag': [2.0, 5.0, -1.0],
     'sea.depth': 5.0, 'sea.transition': 1.0, 'thrust.timeout': 2.0, 'gravity': 3.7,
     'start.position': [1.0, 2.0], 'hull.size': [5.0, 2.0, 1.0], 'rate': 50.0,
     'hull.bottom': -0.4, 'water_density': 1000.0}

@@ -113,6 +113,12 @@ def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,)
     force = force - turn @ (boat.mass * rates[:3] * slip + drag[:3])
     torque = torque - root @ (rates[3:] * (root @ spin)) - drag[3:]
 
+    surge, sway, yaw = damping.wind
+    ahead = np.array([yaw / sway if yaw else 0.0, 0.0, 0.0])
+    slip = turn.T @ (velocity - [*sea.wind, 0.0]) + cross(spin, ahead)
+    drag = np.array([surge, sway, 0.0]) * np.abs(slip) * slip
+    force, torque = force - turn @ drag, torque - cross(ahead, drag)
+
     push, twist = np.array(thrust[:3], float), np.array(thrust[3:], float)
     return force + turn @ push, torque + twist + cross(-boat.center_of_mass, push)
 

@@ -23,7 +23,7 @@ import os
 import sys
 import time
 
-from geometry_msgs.msg import PoseWithCovarianceStamped, WrenchStamped
+from geometry_msgs.msg import PoseWithCovarianceStamped, Vector3Stamped, WrenchStamped
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
@@ -43,6 +43,7 @@ from .session import Session
 from .thrust import read_wrench
 from .thrusters import ThrusterInput
 from .wave_messages import WavesInput, WavesOutput
+from .wind import read_wind
 from ..physics.compiled import notice
 from ..physics.scene.parameters import NODE_NAME
 from ..physics.scene.remarks import sea_warnings
@@ -98,6 +99,8 @@ class BoatNode(ParameterNode):
             WrenchStamped, 'thrust', guarded('thrust', self._on_thrust), qos.THRUST)
         for thruster in scene.thrusters:
             ThrusterInput(self, thruster.name, self.session, guarded)
+        self.create_subscription(
+            Vector3Stamped, 'wind', guarded('wind', self._on_wind), qos.WIND)
         self.create_subscription(PoseWithCovarianceStamped, 'initialpose',
                                  guarded('initialpose', self._on_place), qos.REQUEST)
         self.create_service(Trigger, '~/reset', self._on_reset)
@@ -186,6 +189,13 @@ class BoatNode(ParameterNode):
                            time.monotonic())
             for sentence in sea_warnings(self.session.sea):
                 self.get_logger().warning(sentence)
+
+    def _on_wind(self, message):
+        x, y = wind = read_wind(message, self.session.scene)
+        if self.session.set_wind(wind):
+            felt = self.session.scene.boat.damping.wind.any()
+            self._news.say('wind', f'wind: x {x:.2f} y {y:.2f} m/s' + (
+                '' if felt else ' has no effect: wind.drag is all zeros'), time.monotonic())
 
     def _on_place(self, message):
         x, y, yaw = read_place(message, self.session.scene)

@@ -23,6 +23,8 @@ THRUST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 # Waves and poses that others ask for. Volatile: a latched subscription does not hear
 # `ros2 topic pub`.
 REQUEST = QoSProfile(depth=10)
+# Of winds only the latest counts, and one that is sent once must not be lost.
+WIND = QoSProfile(depth=1)
 # Waves that were latched before the node was there.
 LATCHED_REQUEST = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 # As tf2 has them.

@@ -126,25 +126,35 @@ class Session:
         self._fade_to_given()
         return True
 
+    def set_wind(self, wind):
+        """Let another wind (2,) m/s blow from the next step on; return False when it does."""
+        if np.array_equal(wind, self.sea.wind):
+            return False
+        self.sea = self.sea.with_wind(wind)
+        self.simulation.wind = wind
+        return True
+
     def change(self, scene, plan=None, names=()):
         """
         Go on with another boat or sea: a `Scene` of the same probes.
 
         ``plan`` is the `Plan` of another boat, None where it is the same.  What moves keeps
-        moving.  Waves that came by message stay unless the scene's changed or ``names``, the
-        parameters that were set, ask for waves.
+        moving.  Waves and wind that came by message stay unless the scene's changed or ``names``,
+        the parameters that were set, ask for them.
         """
         before, self.scene = self.scene, scene
         self.thrust.timeout = scene.thrust_timeout
         self.thrusters.set_timeout(scene.thrust_timeout)
         if plan is not None:
             self._change_boat(scene, plan)
+        if 'wind.velocity' in names or not np.array_equal(scene.sea.wind, before.sea.wind):
+            self.set_wind(scene.sea.wind)
         waves = (scene.sea.waves if WAVES.intersection(names)
                  or not np.array_equal(scene.sea.waves, before.sea.waves) else self.sea.waves)
         if not np.array_equal(waves, self.sea.waves) or any(
                 scene.values[name] != before.values[name]
                 for name in ('sea.current', 'sea.depth')):
-            self.sea = replace(scene.sea, waves=waves)
+            self.sea = replace(scene.sea, waves=waves, wind=self.sea.wind)
             self._fade_to_given()
 
     def _change_boat(self, scene, plan):

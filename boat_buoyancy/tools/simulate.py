@@ -123,7 +123,7 @@ def summary(arguments, simulation, run, seconds):
            f'{simulation.integrator}, {_count(simulation.substeps, "step")} per period')
     yield (f'boat     {boat.mass:g} kg, {_count(count, "probe")}, law {boat.hull.law}; '
            f'{"flat water" if sea.is_flat else _count(len(sea.waves), "wave")}, '
-           f'current {np.hypot(*sea.current):.3g} m/s')
+           f'current {np.hypot(*sea.current):.3g} m/s, wind {np.hypot(*sea.wind):.3g} m/s')
     if any(thrust):
         yield f'thrust   {_joined(thrust[:3])} N, {_joined(thrust[3:])} N m, body axes'
     if arguments.thruster:

@@ -26,6 +26,10 @@ from .. import checks
 from ..sea.waves import Water
 
 
+# Farther ahead of its centre of mass, in m, the wind does not push a boat.
+FARTHEST_ARM = 1e6
+
+
 @dataclass(frozen=True, eq=False)
 class Damping:
     """
@@ -34,7 +38,8 @@ class Damping:
     Main arguments: ``linear_retention`` and ``angular_retention`` (3,), part of the velocity
     kept after one second in water; ``air_...``, the same in air; ``probe`` N s/m over all probes.
     Other arguments: ``linear`` (6,) N/(m/s) and N m/(rad/s), ``quadratic`` (6,) N/(m/s)^2 and
-    N m/(rad/s)^2, in water only.
+    N m/(rad/s)^2, in water only; ``wind`` (3,), surge and sway N/(m/s)^2 and yaw N m/(m/s)^2, see
+    `forces.wind`.
     """
 
     linear_retention: ArrayLike = (0.95,)
@@ -44,6 +49,7 @@ class Damping:
     probe: float = 0.0
     linear: ArrayLike = (0.0,) * 6
     quadratic: ArrayLike = (0.0,) * 6
+    wind: ArrayLike = (0.0,) * 3
 
     def __post_init__(self):
         """Store checked, read-only arrays; a single retention stands for all three axes."""
@@ -55,8 +61,22 @@ class Damping:
         for name in ('linear', 'quadratic'):
             values = checks.vector(f'damping.{name}', getattr(self, name), 6, at_least=0.0)
             object.__setattr__(self, name, values)
+        wind = checks.vector('wind.drag', self.wind, 3)
+        if min(wind[:2]) < 0.0:
+            raise ValueError('wind.drag: expected surge and sway of at least 0, '
+                             f'got {wind.tolist()}')
+        if abs(wind[2]) > FARTHEST_ARM * wind[1]:
+            raise ValueError('wind.drag: expected a yaw of at most '
+                             f'{FARTHEST_ARM:g} m times the sway, as it is the sway times how far '
+                             f'ahead its force acts, got {wind.tolist()}')
+        object.__setattr__(self, 'wind', wind)
         object.__setattr__(self, 'probe',
                            checks.number('damping.probe', self.probe, at_least=0.0))
+
+    @property
+    def wind_arm(self) -> float:
+        """Return how far ahead of the centre of mass the wind's side force acts, in m."""
+        return float(self.wind[2] / self.wind[1]) if self.wind[2] else 0.0
 
     @cached_property
     def rates(self) -> np.ndarray:

@@ -37,18 +37,20 @@ class DampingMatrix(NamedTuple):
 
     force = -linear v - w x S, torque = -S x v - angular w: ``linear`` (3) N/(m/s), ``coupling``
     (3) S in N m/(m/s), ``angular`` (6) N m/(rad/s).  Damping points are to velocity what mass
-    points are to acceleration: S = sum c r, angular = sum c (r.r 1 - r r^T).
+    points are to acceleration: S = sum c r, angular = sum c (r.r 1 - r r^T).  ``sway_yaw`` e
+    N m/(m/s) is for a point ahead that damps sway alone: force -e w_z in y, torque -e v_y in z.
     """
 
     linear: tuple
     coupling: tuple
     angular: tuple
+    sway_yaw: float
 
 
 @compiled
 def no_damping():
     """Return the matrix of nothing, to add to."""
-    return DampingMatrix((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    return DampingMatrix((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)
 
 
 @compiled
@@ -70,14 +72,14 @@ def with_point(damping, c, r):
     return DampingMatrix(
         add(damping.linear, (c, c, c)), add_scaled(damping.coupling, c, r),
         add_scaled_matrix(damping.angular, c, (y * y + z * z, x * x + z * z, x * x + y * y,
-                                               -x * y, -x * z, -y * z)))
+                                               -x * y, -x * z, -y * z)), damping.sway_yaw)
 
 
 @compiled
 def with_body(damping, drag, spin_drag):
     """Return the damping matrix with drag (3) and spin drag (6) of the whole body added."""
     return DampingMatrix(add(damping.linear, drag), damping.coupling,
-                         add_scaled_matrix(damping.angular, 1.0, spin_drag))
+                         add_scaled_matrix(damping.angular, 1.0, spin_drag), damping.sway_yaw)
 
 
 @compiled
@@ -111,8 +113,6 @@ def with_quadratic_drag(boat, load, body_velocity, angular_velocity):
     -q |u| u on each body axis, times the wetness, speeds relative to the water; the rotation
     relative to none.
     """
-    if boat.has_quadratic == 0:
-        return load.damping, load.force
     q = boat.quadratic
     s, u, w = load.wetness, subtract(body_velocity, load.water), angular_velocity
     drag = (s * q[0] * abs(u[0]), s * q[1] * abs(u[1]), s * q[2] * abs(u[2]))
@@ -125,5 +125,7 @@ def with_quadratic_drag(boat, load, body_velocity, angular_velocity):
 def damping_wrench(damping, body_velocity, angular_velocity):
     """Return C u: the force and torque that damping takes at a velocity, body axes."""
     v, w = body_velocity, angular_velocity
-    return (add(multiply(damping.linear, v), cross(w, damping.coupling)),
-            add(cross(damping.coupling, v), times(damping.angular, w)))
+    drag = add(multiply(damping.linear, v), cross(w, damping.coupling))
+    spin_drag = add(cross(damping.coupling, v), times(damping.angular, w))
+    return (add(drag, (0.0, damping.sway_yaw * w[2], 0.0)),
+            add(spin_drag, (0.0, 0.0, damping.sway_yaw * v[1])))

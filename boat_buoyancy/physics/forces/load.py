@@ -22,10 +22,11 @@ from typing import NamedTuple
 
 from .buoyancy import buoyancy
 from .damping import (body_damping, DampingMatrix, no_damping, probe_damping, ramped, with_body,
-                      with_point)
+                      with_point, with_quadratic_drag)
 from .gravity import gravity
 from .pressure import pressure
 from .probe_laws import wetting
+from .wind import with_air_drag
 from ..compiled import compiled
 from ..rotation import rotation_matrix, to_body, to_world
 from ..sea.fading import current, ramp
@@ -39,7 +40,7 @@ class Load(NamedTuple):
 
     ``force`` N and ``torque`` N m of buoyancy, gravity and the pull of moving water; ``damping``
     a `DampingMatrix`; ``wetness`` 0 to 1, the probes' weighted mean; ``water`` (3) m/s, the
-    probes' weighted mean velocity of the water.
+    probes' weighted mean velocity of the water; ``wind`` (3) m/s.
     """
 
     force: tuple
@@ -47,6 +48,7 @@ class Load(NamedTuple):
     damping: DampingMatrix
     wetness: float
     water: tuple
+    wind: tuple
 
 
 @compiled
@@ -88,5 +90,20 @@ def load_at(boat, hull, sea, waves, position, orientation, t):
         water = add_scaled(water, probe.share, flow)
         wetness += probe.share * s
     drag, spin_drag = body_damping(boat, wetness)
+    wind = to_body(R, (sea.wind[0], sea.wind[1], 0.0))
     return Load(add(force, multiply(drag, water)), torque,
-                with_body(damping, drag, spin_drag), wetness, water)
+                with_body(damping, drag, spin_drag), wetness, water, wind)
+
+
+@compiled
+def at_speed(boat, load, body_velocity, angular_velocity):
+    """
+    Return damping matrix, force and torque of a load, with all drag that is quadratic in speed.
+
+    Linear in velocity, for a step: what is |u| in |u| u is taken at the speed given.
+    """
+    if boat.has_quadratic == 0:
+        return load.damping, load.force, load.torque
+    damping, force = with_quadratic_drag(boat, load, body_velocity, angular_velocity)
+    return with_air_drag(boat, load.wind, damping, force, load.torque, body_velocity,
+                         angular_velocity)

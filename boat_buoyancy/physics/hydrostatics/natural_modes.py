@@ -170,9 +170,9 @@ def levelled(matrix, state):
 
 
 def damping_matrix(damping):
-    """Return C (6, 6) of a `DampingMatrix`: force -linear v - w x S, torque -S x v - angular w."""
+    """Return C (6, 6) of a `DampingMatrix`: force and torque are -C (v, w)."""
     x, y, z = damping.coupling
     xx, yy, zz, xy, xz, yz = damping.angular
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.block([[np.diag(damping.linear), -cross],
-                     [cross, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])]])
+    turning = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x + damping.sway_yaw, 0.0]])
+    return np.block([[np.diag(damping.linear), turning.T],
+                     [turning, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])]])

@@ -47,7 +47,8 @@ AHEAD, NO_LIMITS = (1.0, 0.0, 0.0), (-1e15, 1e15)
 # The parameters that each part is made of; the start is made of the hull, too. What is given to
 # the functions below is this and no more, so that a name that is missing here is seen at once.
 _PREFIXES = {'hull': ('boat.', 'hull.', 'probes.', 'gravity', 'water_density'),
-             'damping': ('damping.',), 'sea': ('sea.', 'gravity'), 'start': ('start.',)}
+             'damping': ('damping.', 'wind.drag'), 'sea': ('sea.', 'wind.velocity', 'gravity'),
+             'start': ('start.',)}
 MADE_OF = {part: frozenset(name for name in PARAMETERS if name.startswith(prefixes))
            for part, prefixes in _PREFIXES.items()}
 
@@ -64,7 +65,7 @@ def assembled_boat(in_force, sea, like=None):
     """
     damping = Damping(**{name: in_force[f'damping.{name}'] for name in (
         'linear_retention', 'angular_retention', 'air_linear_retention',
-        'air_angular_retention', 'linear', 'quadratic')})
+        'air_angular_retention', 'linear', 'quadratic')}, wind=in_force['wind.drag'])
     boat, said = _undamped_boat(in_force, sea) if like is None else (like.on(sea), ())
     probe = in_force['damping.probe']
     if probe is None:
@@ -129,7 +130,7 @@ def _heave_stiffness(boat):
 def assembled_sea(in_force):
     """Return the `Sea`."""
     return Sea(_waves(in_force), in_force['sea.current'], in_force['sea.depth'],
-               in_force['gravity'])
+               in_force['gravity'], in_force['wind.velocity'])
 
 
 def _waves(in_force):

@@ -231,6 +231,14 @@ def _table():
         Parameter('sea.transition', 'float', 4.0, 's',
                   'Time over which a new sea replaces the old; 0 = at once. Higher is gentler.',
                   at_least=0.0, at_most=1e6),
+        Parameter('wind.velocity', 'float_array', (0.0, 0.0), 'm/s',
+                  'Wind along world x and y, where it blows to; it acts through wind.drag. Higher '
+                  'drifts faster.', at_least=-1e3, at_most=1e3, lengths=(2,)),
+        Parameter('wind.drag', 'float_array', (0.0,) * 3, 'N/(m/s)², N·m/(m/s)²',
+                  'Drag in the air per speed squared, of the boat relative to the wind: surge, '
+                  'sway and yaw, the torque of the side force. Higher is slower and drifts '
+                  'faster in wind; a yaw above 0 turns the bow away from the wind, below 0 into '
+                  'it.', at_least=-1e15, at_most=1e15, lengths=(3,)),
         Parameter('start.position', 'float_array', (0.0, 0.0), 'm',
                   'Where the body frame starts in the world: x, y (floats at its draft) or '
                   'x, y, z. A higher z drops it from there.', at_least=-1e9, at_most=1e9,

@@ -126,6 +126,8 @@ def _without_effect(in_force):
     if in_force['probes.positions'] is not None:
         yield ('water_density', 'probes.floatiness sets the lift of probes, and the density of '
                'water that of a hull shape')
+    if not any(in_force['wind.drag']):
+        yield 'wind.velocity', 'wind acts through wind.drag, which is all zeros'
     if not in_force['thrusters.names']:
         yield 'thrusters.lag', 'there is no thruster: give thrusters.names'
     if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:

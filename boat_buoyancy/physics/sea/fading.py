@@ -17,7 +17,8 @@ A sea that turns into another without a jump: every wave goes from one amplitude
 
 What stays of the old sea fades out while the new one fades in, on a smooth ramp; the change of
 amplitude is part of the water's velocity.  The surface never jumps; where a third sea comes in
-the middle, the speed at which it rises and sinks does.
+the middle, the speed at which it rises and sinks does.  The wind is the new sea's from the start:
+it only pushes, so that nothing jumps with it, and who sends gusts wants each of them at once.
 """
 
 from dataclasses import dataclass, replace
@@ -102,6 +103,11 @@ class FadingSea(Water):
         return self.new.current
 
     @property
+    def wind(self):
+        """Return (2,) m/s, the wind of the new sea."""
+        return self.new.wind
+
+    @property
     def is_flat(self):
         """Return False: the water moves until the fade is over."""
         return False
@@ -110,7 +116,7 @@ class FadingSea(Water):
     def record(self):
         """Return what the step reads beside the waves, as a record of `SEA`."""
         return np.array((self.table.shape[1], self.start, self.duration, self.current_start,
-                         self.new.current - self.current_start), SEA)
+                         self.new.current - self.current_start, self.wind), SEA)
 
     def settled(self, time):
         """Return True when only the new sea is left."""
@@ -124,6 +130,10 @@ class FadingSea(Water):
         return float(np.maximum(np.abs(begin), np.abs(end)) @ along
                      + STEEPEST / self.duration * np.abs(self.table[RISE]).sum()
                      + max(np.hypot(*self.current_start), np.hypot(*self.new.current)))
+
+    def with_wind(self, wind):
+        """Return the same fade under another wind (2,) m/s."""
+        return replace(self, new=self.new.with_wind(wind))
 
     def starting_at(self, time):
         """Return the same fade with its clock set so that 0 is this one's ``time`` s."""

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The sea: a sum of linear (Airy) waves over water of constant depth, and a uniform current."""
+"""The sea: linear (Airy) waves over water of constant depth, and a uniform current and wind."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -34,7 +34,7 @@ WAVE_FORM = 'rows of [amplitude m, period s, direction rad, phase rad]'
 KX, KY, FREQUENCY, PHASE, START, RISE, ALONG_X, ALONG_Y = range(8)
 # What the step reads of a sea beside its waves.
 SEA = np.dtype([('waves', 'i8'), ('fade_start', 'f8'), ('fade_duration', 'f8'),
-                ('current', 'f8', 2), ('current_rise', 'f8', 2)])
+                ('current', 'f8', 2), ('current_rise', 'f8', 2), ('wind', 'f8', 2)])
 
 
 @compiled(arithmetic=REORDERED)
@@ -158,18 +158,20 @@ class Water:
 @dataclass(frozen=True, eq=False)
 class Sea(Water):
     """
-    The water surface and its motion, a function of place and time only.
+    The water surface and its motion, a function of place and time only, and the wind over it.
 
     Main arguments: ``waves`` (W, 4), rows of amplitude m, period s, direction rad (where the
     waves go, counter-clockwise from world x) and phase rad, eta = sum a cos(k.x - w t + phase).
     Other arguments: ``current`` (2,) m/s in world x and y; ``depth`` m, 0 = deep water;
-    ``gravity`` m/s^2.  ValueError says which row is wrong and what is expected.
+    ``gravity`` m/s^2; ``wind`` (2,) m/s in world x and y, where it blows to.  ValueError says
+    which row is wrong and what is expected.
     """
 
     waves: ArrayLike = ()
     current: ArrayLike = (0.0, 0.0)
     depth: float = 0.0
     gravity: float = 9.81
+    wind: ArrayLike = (0.0, 0.0)
 
     def __post_init__(self):
         """Store checked, read-only arrays."""
@@ -177,6 +179,7 @@ class Sea(Water):
         object.__setattr__(self, 'current', checks.vector('sea.current', self.current, 2))
         object.__setattr__(self, 'depth', checks.number('sea.depth', self.depth, at_least=0.0))
         object.__setattr__(self, 'gravity', checks.number('gravity', self.gravity, above=0.0))
+        object.__setattr__(self, 'wind', checks.vector('wind.velocity', self.wind, 2))
 
     @cached_property
     def angular_frequency(self) -> np.ndarray:
@@ -222,7 +225,7 @@ class Sea(Water):
     @cached_property
     def record(self) -> np.ndarray:
         """Return what the step reads beside the waves, as a record of `SEA`."""
-        return np.array((len(self.waves), -1.0, 1.0, self.current, (0.0, 0.0)), SEA)
+        return np.array((len(self.waves), -1.0, 1.0, self.current, (0.0, 0.0), self.wind), SEA)
 
     def amplitudes(self, time: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Return amplitude (..., W) m of each wave, and its change (..., W) in m/s."""
@@ -237,6 +240,10 @@ class Sea(Water):
         """Return a bound of the water speed at the surface in m/s: sum a w/tanh(kh) + current."""
         orbital = self.waves[:, 0] * self.angular_frequency * self._horizontal_ratio
         return float(orbital.sum() + np.hypot(*self.current))
+
+    def with_wind(self, wind: ArrayLike) -> 'Sea':
+        """Return the same water under another wind (2,) m/s."""
+        return replace(self, wind=wind)
 
     def starting_at(self, time: float) -> 'Sea':
         """

@@ -19,7 +19,8 @@ Velocities and wrenches are pairs of vectors, of translation and of rotation.
 """
 
 from ..compiled import compiled
-from ..forces.damping import damping_wrench, with_quadratic_drag
+from ..forces.damping import damping_wrench
+from ..forces.load import at_speed
 from ..vectors import add, add_scaled_matrix, cross, factor, multiply, scale, six, solve_factored
 from ..vectors import subtract, times
 
@@ -38,26 +39,30 @@ def damped_accelerations(boat, damping, s, force, torque):
     Return a of (M + s C) a = (force, torque): M^-1 f with s = 0, Crank-Nicolson with dt / 2.
 
     The force block is diagonal, with inverse n: it is eliminated, which leaves for the rotation
-    I + s D - [s S x]^T n [s S x], symmetric and positive definite.
+    I + s D - B n B^T, B = [s S x] with s e added in (z, y): symmetric and positive definite.
     """
     m = boat.mass
     n = (1.0 / (m + s * damping.linear[0]), 1.0 / (m + s * damping.linear[1]),
          1.0 / (m + s * damping.linear[2]))
     S = (x, y, z) = scale(s, damping.coupling)
+    e = s * damping.sway_yaw
     left = add_scaled_matrix(six(boat.inertia), s, damping.angular)
     left = add_scaled_matrix(left, -1.0, (
-        z * z * n[1] + y * y * n[2], z * z * n[0] + x * x * n[2], y * y * n[0] + x * x * n[1],
-        -x * y * n[2], -x * z * n[1], -y * z * n[0]))
+        z * z * n[1] + y * y * n[2], z * z * n[0] + x * x * n[2],
+        y * y * n[0] + (x + e) * (x + e) * n[1],
+        -x * y * n[2], -(x + e) * z * n[1], -y * z * n[0]))
     moving = multiply(n, force)
-    turning = solve_factored(factor(left), subtract(torque, cross(S, moving)))
-    return add(moving, multiply(n, cross(S, turning))), turning
+    held = add(cross(S, moving), (0.0, 0.0, e * moving[1]))
+    turning = solve_factored(factor(left), subtract(torque, held))
+    carried = subtract(cross(S, turning), (0.0, e * turning[2], 0.0))
+    return add(moving, multiply(n, carried)), turning
 
 
 @compiled
 def explicit_accelerations(boat, load, thrust, body_velocity, angular_velocity):
     """Return linear and angular acceleration, body axes, the gyroscopic torque included."""
-    damping, force = with_quadratic_drag(boat, load, body_velocity, angular_velocity)
-    force, torque = net_wrench(damping, force, load.torque, thrust, body_velocity,
+    damping, force, torque = at_speed(boat, load, body_velocity, angular_velocity)
+    force, torque = net_wrench(damping, force, torque, thrust, body_velocity,
                                angular_velocity)
     gyroscopic = cross(angular_velocity, times(six(boat.inertia), angular_velocity))
     return damped_accelerations(boat, damping, 0.0, force, subtract(torque, gyroscopic))

@@ -21,8 +21,7 @@ from .free_rotation import free_rotation
 from ..boat.state import Motion
 from ..compiled import compiled
 from ..forces.buoyancy import lift_stiffness
-from ..forces.damping import with_quadratic_drag
-from ..forces.load import load_at
+from ..forces.load import at_speed, load_at
 from ..rotation import rotation_matrix, to_body, to_world
 from ..vectors import (add_scaled, add_scaled_matrix, diagonal, dot, factor, outer, scale,
                        six, solve_factored, subtract, times)
@@ -39,8 +38,8 @@ def implicit(boat, hull, sea, waves, motion, load, thrust, t, h):
     v, w = motion.body_velocity, motion.angular_velocity
     R = rotation_matrix(motion.orientation)
     up = R[2]
-    damping, force = with_quadratic_drag(boat, load, v, w)
-    force, torque = net_wrench(damping, force, load.torque, thrust, v, w)
+    damping, force, torque = at_speed(boat, load, v, w)
+    force, torque = net_wrench(damping, force, torque, thrust, v, w)
     k, lever, K = lift_stiffness(boat, hull, R)
     # K+ u, with the speed up that the springs feel: k up.v + l.w.
     sprung = scale(k * dot(up, v) + dot(lever, w), up)
@@ -67,8 +66,9 @@ def solve_implicit(boat, damping, up, k, lever, K, h, force, torque):
     """
     Return a of (M + h C + h^2 K+) a = (force, torque), by blocks.
 
-    With F = m 1 + h diag(linear) + h^2 k up up^T, B = h [S x] + h^2 l up^T, T = I + h D + h^2 K:
-    (T - B F^-1 B^T) a_w = torque - B F^-1 force, then a_v = F^-1 (force - B^T a_w).
+    With F = m 1 + h diag(linear) + h^2 k up up^T, B = h [S x] + h^2 l up^T, h e added in (z, y),
+    T = I + h D + h^2 K: (T - B F^-1 B^T) a_w = torque - B F^-1 force, then
+    a_v = F^-1 (force - B^T a_w).
     """
     m, hh = boat.mass, h * h
     F = add_scaled_matrix(diagonal((m, m, m)), h, diagonal(damping.linear))
@@ -79,7 +79,7 @@ def solve_implicit(boat, damping, up, k, lever, K, h, force, torque):
     # The rows of B.
     bx = add_scaled((0.0, -sz, sy), lx, up)
     by = add_scaled((sz, 0.0, -sx), ly, up)
-    bz = add_scaled((-sy, sx, 0.0), lz, up)
+    bz = add_scaled((-sy, sx + h * damping.sway_yaw, 0.0), lz, up)
     fx, fy, fz = solve_factored(F, bx), solve_factored(F, by), solve_factored(F, bz)
     T = add_scaled_matrix(T, -1.0, (dot(bx, fx), dot(by, fy), dot(bz, fz),
                                     dot(bx, fy), dot(bx, fz), dot(by, fz)))

@@ -18,8 +18,7 @@ from .equations_of_motion import damped_accelerations, net_wrench
 from .free_rotation import free_rotation
 from ..boat.state import Motion
 from ..compiled import compiled
-from ..forces.damping import with_quadratic_drag
-from ..forces.load import load_at
+from ..forces.load import at_speed, load_at
 from ..rotation import rotation_matrix, to_body, to_world
 from ..vectors import add, add_scaled, scale
 
@@ -54,9 +53,9 @@ def kick(boat, load, thrust, body_velocity, spin, dt):
     """
     after = body_velocity, spin
     for _ in range(1 + boat.has_quadratic):
-        damping, force = with_quadratic_drag(
+        damping, force, torque = at_speed(
             boat, load, scale(0.5, add(body_velocity, after[0])), scale(0.5, add(spin, after[1])))
-        force, torque = net_wrench(damping, force, load.torque, thrust, body_velocity, spin)
+        force, torque = net_wrench(damping, force, torque, thrust, body_velocity, spin)
         acceleration, spin_up = damped_accelerations(boat, damping, 0.5 * dt, force, torque)
         after = add_scaled(body_velocity, dt, acceleration), add_scaled(spin, dt, spin_up)
     return after

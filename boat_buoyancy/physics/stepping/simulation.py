@@ -96,6 +96,16 @@ class Simulation(Stepped):
         self._engine.replace(boats=[self.boat.on(sea)], seas=[sea])
 
     @property
+    def wind(self) -> np.ndarray:
+        """Return the wind (2,) m/s in world x and y; setting another blows with the next step."""
+        return self.sea.wind
+
+    @wind.setter
+    def wind(self, wind: ArrayLike):
+        # Nothing but the wind: panels are not looked at again, so that gusts are cheap.
+        self._engine.replace(seas=[self.sea.with_wind(wind)])
+
+    @property
     def state(self) -> State:
         """Return the `State` after the last step; set it to put the boat somewhere else."""
         return from_rows(self._engine.rows[0])

@@ -22,7 +22,10 @@ from u to u+ obeys
     |u+| <= (a + sqrt(a^2 + 4 (1 + h d) h P)) / (2 (1 + h d)),  a = |u| + h F,
 
 because M + h C + h^2 K+ >= (1 + h d) M.  F bounds the force in the norm of M^-1, P the power that
-moving water can feed in through drag.  The bound is of speed, not of error.
+moving water and air can feed in through drag.  The bound is of speed, not of error.
+
+A drag -c (v - w) feeds in at most c w^2 / 4.  That in the air has c = X |u_a| <= X (|v| + W), or
+Y at l ahead, where |v_P| <= |v| + |l w_z| <= |u|_M sqrt(1/m + l^2/I_min) (Cauchy and Schwarz).
 """
 
 from dataclasses import astuple, dataclass
@@ -43,7 +46,7 @@ class SpeedBound:
 
     ``force`` N and ``torque`` N m, the most that lift, weight and linear drag of moving water
     exert; ``mass`` kg and ``least_moment`` kg m^2; ``drag`` 1/s, the least rate d; ``power`` W,
-    P at rest, and ``power_rate`` W per unit of |u|_M, what quadratic drag adds at speed.
+    P at rest, and ``power_rate`` W per unit of |u|_M, what drag quadratic in speed adds.
     """
 
     force: float
@@ -70,14 +73,18 @@ class SpeedBound:
         rates = damping.rates
         drag = float(rates.min())
         quarter = 0.25 * water ** 2
-        quadratic = float(damping.quadratic[:3].max())
+        quadratic, air = float(damping.quadratic[:3].max()), float(damping.wind[:2].max())
+        wind, least_moment = math.hypot(*sea.wind), float(boat.principal[0][0])
+        gust = 0.25 * wind ** 2 * air
+        per_norm = math.sqrt(1.0 / boat.mass + damping.wind_arm ** 2 / least_moment)
         return cls(
             force=float(hull.max_lift + boat.weight + drag * boat.mass * water),
             torque=torque,
-            mass=boat.mass, least_moment=float(boat.principal[0][0]), drag=drag,
+            mass=boat.mass, least_moment=least_moment, drag=drag,
             power=quarter * (damping.probe + boat.mass * (float(rates[:, :3].max()) - drag)
-                             + float(damping.linear[:3].max()) + quadratic * water),
-            power_rate=quarter * quadratic / math.sqrt(boat.mass))
+                             + float(damping.linear[:3].max()) + quadratic * water)
+            + gust * wind,
+            power_rate=quarter * quadratic / math.sqrt(boat.mass) + gust * per_norm)
 
     @property
     def record(self):

@@ -34,6 +34,7 @@ from ...physics.compiled import compile_now
 from ...physics.forces.damping import RAMP
 from ...physics.forces.load import load_at
 from ...physics.forces.probe_laws import MIN_UPRIGHT
+from ...physics.forces.wind import air_speed
 from ...physics.rotation import normalise, rotation_matrix, to_body
 from ...physics.sea.waves import Water
 from ...physics.stepping.rates import rate_of
@@ -120,7 +121,9 @@ class Equations:
             attitude = [upright, upright - MIN_UPRIGHT, upright + MIN_UPRIGHT]
         speeds = []
         if self.boat.has_quadratic:
-            speeds = [*subtract(motion.body_velocity, load.water), *motion.angular_velocity]
+            speeds = [*subtract(motion.body_velocity, load.water), *motion.angular_velocity,
+                      *air_speed(self.boat, load.wind, motion.body_velocity,
+                                 motion.angular_velocity)]
         return np.concatenate([wet, wet - RAMP * height, wet - height, attitude, speeds])
 
 

@@ -91,9 +91,11 @@ def stretches(given):
 
 
 def _moves(scene):
-    """Return True when the boat does not start at rest, or water or weight set it in motion."""
+    """Return True when the boat does not start at rest, or water, wind or weight move it."""
     start = scene.start
     if start.velocity.any() or start.angular_velocity.any() or scene.sea.current.any():
+        return True
+    if scene.sea.wind.any() and scene.boat.damping.wind.any():
         return True
     if not floats(scene.boat):
         return True
