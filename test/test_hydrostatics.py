@@ -16,6 +16,7 @@
 
 import re
 
+from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.boat.boat import Boat
 from boat_buoyancy.physics.boat.columns import box_hull
 from boat_buoyancy.physics.boat.hull import Hull, probe_hull
@@ -408,6 +409,19 @@ def test_a_hull_that_sinks_is_told_to_become_larger_and_probes_to_lift_more():
     sentence, = flotation_warnings(Boat(9000.0, box_shaped(
         (4.0, 2.0, 1.0), -0.5, (2, 2), specific_weight=SALT * GRAVITY), [1000.0] * 3))
     assert 'make the hull larger' in sentence and 'probes.floatiness' not in sentence
+
+
+def test_a_box_of_columns_started_on_its_side_stays_there_and_is_told_that_the_hull_would_not():
+    for heel, told in ((0.1, False), (0.3, False), (1.22, True), (1.48, True), (1.75, True)):
+        scene = load_scene({'start.orientation': [heel, 0.0, 0.0],
+                            'damping.angular_retention': [0.3]})
+        assert any('would let it rest between 90 and 95 degrees, where the hull does not' in sentence
+                   for sentence in scene.warnings) == told
+        # The hull rights itself, or turns upside down.
+        run = scene.simulation().run(60.0)
+        assert (abs(np.degrees(run.roll[-1]) - 90.0) < 3.0) == told
+        panels = load_scene({**scene.given, 'hull.model': 'panels'})
+        assert not panels.warnings
 
 
 def test_a_probe_lifted_out_by_the_load_is_named():

@@ -131,7 +131,7 @@ def fingerprint(sea):
 def loaded(scene, simulation):
     """Return one line that says what was loaded and what the boat will do."""
     boat, sea, values = scene.boat, scene.sea, scene.values
-    what = f'{_shape(values)} of {boat.mass:g} kg on {carriers(boat.hull)}'
+    what = f'{_shape(values)} of {boat.mass:g} kg on {boat.hull.carriers}'
     if floats(boat):
         motions = ', '.join(
             f'{name} {mode.period:.3g} s' if mode.period else f'{name} not righted'
@@ -159,15 +159,6 @@ def _shape(values):
     if values['hull.shape'] == 'mesh':
         return os.path.basename(values['hull.mesh'])
     return f'{" x ".join(f"{size:g}" for size in values["hull.size"])} m {values["hull.shape"]}'
-
-
-def carriers(hull):
-    """Return in words what lifts a `Hull`: how many probes or panels."""
-    if hull.panels is not None:
-        return (f'{len(hull.panels.triangles)} panels of at most '
-                f'{hull.panels.longest_edge:.2g} m')
-    count = len(hull.positions)
-    return f'{count} probe{"s" if count > 1 else ""}'
 
 
 def status_line(frame, time, real_time_factor, paused):

@@ -32,7 +32,6 @@ from . import network, qos, startup, transforms
 from .complaints import Refused, Throttle
 from .drive import ClockDrive, SteadyDrive, WallDrive
 from .ending import told_to_end
-from .figures import carriers
 from .initial_pose import read_place
 from .markers import Markers
 from .messages import ClockOutput, Outputs
@@ -184,7 +183,7 @@ class BoatNode(ParameterNode):
         if self.session.set_waves(rows):
             self._waves_output.publish(self.session.sea)
             hull = self.session.simulation.boat.hull
-            panels = f', on {carriers(hull)}' if hull.panels is not None else ''
+            panels = f', on {hull.carriers}' if hull.panels is not None else ''
             self._news.say('waves', f'waves: {len(self.session.sea.waves)} in force{panels}',
                            time.monotonic())
             for sentence in sea_warnings(self.session.sea):

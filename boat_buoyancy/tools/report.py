@@ -32,16 +32,14 @@ from ..physics.hydrostatics.natural_modes import MODES, modes
 from ..physics.hydrostatics.rest import draft, floats, rest_attitude, rest_state
 from ..physics.hydrostatics.righting_arm import (
     righting_arms, surface_righting_arms, trim, wall_sided_heel)
+from ..physics.hydrostatics.warnings import HEELS, parting_warnings
 from ..physics.hydrostatics.wetted_surface import wetted_surface
 from ..physics.scene.scene import load_scene
 from ..physics.step_size.limits import max_stable_steps, notice_of
 
 PROGRAM = 'buoyancy_report'
-HEEL_DEGREES = np.arange(0.0, 181.0, 5.0)
 # The heels in degrees that a boat is sailed at, for the error of a model.
 SMALL_HEEL = 30.0
-# Of the greatest righting arm: where the model is off by more, a warning says so.
-TOLD = 0.05
 # A righting arm in m below which there is none.
 ROUND_OFF = 1e-9
 # A natural period meets the sea where waves within this part of it have this share of its energy.
@@ -61,9 +59,10 @@ def figures(scene):
     roll, pitch = np.degrees(rest_attitude(boat)).tolist() if rest else (None, None)
     motions = modes(boat) if rest else {}
     periods = {name: motions[name].period if rest else None for name in MODES}
-    heel = np.radians(HEEL_DEGREES)
-    arms = righting_arms(boat, heel)
+    heel = np.radians(HEELS)
     exact = None if surface is None else surface_righting_arms(boat, heel)
+    # On panels they are the same to round-off.
+    arms = righting_arms(boat, heel) if boat.hull.panels is None else exact
     # A boat that sinks displaces its whole hull, which is less than its mass.
     displaced = boat.mass * min(1.0, boat.floatiness)
     return {
@@ -83,8 +82,9 @@ def figures(scene):
         'max_stable_step_s': max_stable_steps(boat),
         'substeps': plan.substeps,
         'sea': sea_figures(scene.sea, periods),
-        'warnings': [*scene.warnings, *plan.warnings, *apart_warnings(boat, arms, exact)],
-        'gz_heel_deg': HEEL_DEGREES.tolist(),
+        'warnings': list(dict.fromkeys(
+            [*scene.warnings, *plan.warnings, *parting_warnings(boat)])),
+        'gz_heel_deg': HEELS.tolist(),
         'gz_m': _numbers(arms),
         'gz_exact_m': None if surface is None else _numbers(exact),
         'gz_exact_to_deg': exact_heel_degrees(scene),
@@ -110,29 +110,13 @@ def model_error(boat, surface, arms, exact):
         return None
     model, true = ([draft(one, state), *metacentric_heights(one)]
                    for one, state in zip((boat, surface), states))
-    off, small = np.abs(arms - exact), HEEL_DEGREES <= SMALL_HEEL
+    off, small = np.abs(arms - exact), HEELS <= SMALL_HEEL
     names = 'draft_m', 'gm_transverse_m', 'gm_longitudinal_m'
     return {
         **dict(zip(names, np.subtract(model, true).tolist())),
         'gz_greatest_m': float(off.max()),
-        'gz_greatest_at_deg': float(HEEL_DEGREES[np.argmax(off)]),
+        'gz_greatest_at_deg': float(HEELS[np.argmax(off)]),
         f'gz_rms_to_{SMALL_HEEL:.0f}_deg_m': float(np.sqrt(np.mean(off[small] ** 2)))}
-
-
-def apart_warnings(boat, arms, exact):
-    """Return a sentence, in a tuple, where the righting arms of model and surface part."""
-    if exact is None or np.isnan([arms, exact]).any():
-        return ()
-    off = np.abs(arms - exact)
-    parted = np.flatnonzero(off > max(TOLD * exact.max(), ROUND_OFF))
-    if not len(parted):
-        return ()
-    worst = np.argmax(off)
-    kind = 'columns' if boat.hull.law == 'column' else 'probes'
-    return (f'The {kind} are not the hull from {HEEL_DEGREES[parted[0]]:.0f} degrees of heel on: '
-            f'their righting arm is up to {off[worst]:.3f} m off (at {HEEL_DEGREES[worst]:.0f} '
-            f'degrees {arms[worst]:.3f} m in place of {exact[worst] + 0.0:.3f} m); for a boat '
-            'that heels so far take hull.model: panels.',)
 
 
 def exact_heel_degrees(scene):
@@ -146,13 +130,16 @@ def exact_heel_degrees(scene):
         return None
     if boat.hull.panels is not None:
         return 180.0
-    if values['hull.shape'] != 'box' or values['probes.law'] != 'column':
+    if values['hull.shape'] == 'mesh' or values['probes.law'] != 'column':
         return None
     along, across = values['hull.probes']
     # One column has no waterplane to heel with, nor to trim with.
     if across < 2 or (along < 2 and trim(boat)):
         return None
     length, beam, depth = values['hull.size']
+    if values['hull.shape'] == 'twin':
+        # The outer sides dip and rise first.
+        beam += values['hull.spacing']
     return float(np.degrees(wall_sided_heel(
         beam, depth, depth / boat.floatiness, length, trim(boat))))
 

@@ -41,15 +41,10 @@ def text(source, scene, result):
 def _model(scene):
     """Return what the hull is, and what lifts it."""
     hull, shape = scene.boat.hull, scene.values.get('hull.shape')
-    probes = _counted(len(hull.positions), 'probe')
-    if hull.panels is not None:
-        return (f'{shape} of {_counted(len(hull.panels.triangles), "panel")}, longest edge '
-                f'{hull.panels.longest_edge:.3g} m; depths at {probes}')
-    if shape is None:
-        return f'{probes}, law {hull.law}'
-    if hull.law == 'column':
-        return f'{shape} on {_counted(len(hull.positions), "column")}'
-    return f'{shape} on {probes}, law {hull.law}'
+    depths = (f'; depths at {_counted(len(hull.positions), "probe")}'
+              if hull.panels is not None else '')
+    law = '' if hull.panels is not None or hull.law == 'column' and shape else f', law {hull.law}'
+    return f'{f"{shape} on " if shape else ""}{hull.carriers}{depths}{law}'
 
 
 def _at_rest(result):

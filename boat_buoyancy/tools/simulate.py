@@ -121,7 +121,8 @@ def summary(arguments, simulation, run, seconds):
     count, depths = len(boat.hull.positions), run.probe_depths
     yield (f'{arguments.scene}: {run.time[-1]:g} s at {simulation.rate:g} Hz, '
            f'{simulation.integrator}, {_count(simulation.substeps, "step")} per period')
-    yield (f'boat     {boat.mass:g} kg, {_count(count, "probe")}, law {boat.hull.law}; '
+    law = f', law {boat.hull.law}' if boat.hull.panels is None else ''
+    yield (f'boat     {boat.mass:g} kg on {boat.hull.carriers}{law}; '
            f'{"flat water" if sea.is_flat else _count(len(sea.waves), "wave")}, '
            f'current {np.hypot(*sea.current):.3g} m/s, wind {np.hypot(*sea.wind):.3g} m/s')
     if any(thrust):
@@ -129,8 +130,7 @@ def summary(arguments, simulation, run, seconds):
     if arguments.thruster:
         yield f'thruster {", ".join(arguments.thruster)} N'
     yield from (f'warning: {sentence}' for sentence in simulation.warnings)
-    yield (f'end      x {x:.3f}, y {y:.3f}, z {z:.3f} m; draft {depths[-1].max():.4f} m '
-           f'(deepest probe); speed {speed[-1]:.4f} m/s')
+    yield f'end      x {x:.3f}, y {y:.3f}, z {z:.3f} m; speed {speed[-1]:.4f} m/s'
     yield 'attitude roll {:.3f}, pitch {:.3f}, yaw {:.3f} deg'.format(*angles[-1])
     yield (f'extremes roll {abs(angles[:, 0]).max():.3f}, pitch {abs(angles[:, 1]).max():.3f} deg '
            f'either way; heave {heave.min():.3f} to {heave.max():.3f} m; '

@@ -67,6 +67,8 @@ class Hull:
                              f'got {positions.tolist()}')
         positions.setflags(write=False)
         object.__setattr__(self, 'positions', positions)
+        if self.surface is None:
+            object.__setattr__(self, 'surface', self.panels)
         for name in ('max_force', 'height'):
             values = np.broadcast_to(np.asarray(getattr(self, name), float), (count,))
             object.__setattr__(self, name, checks.vector(name, values, count, at_least=0.0))
@@ -100,6 +102,15 @@ class Hull:
         """Return the longest edge in m of about `MAX_PANELS` panels on the surface."""
         # Triangles whose edges are halved until none is too long have at least 0.13 of its square.
         return math.sqrt(self.surface.area / (0.13 * MAX_PANELS))
+
+    @property
+    def carriers(self) -> str:
+        """Return in words what lifts the hull: how many probes, columns or panels."""
+        if self.panels is not None:
+            return (f'{len(self.panels.triangles)} panels of at most '
+                    f'{self.panels.longest_edge:.2g} m')
+        kind = 'column' if self.law == 'column' and self.surface is not None else 'probe'
+        return f'{len(self.positions)} {kind}{"" if len(self.positions) == 1 else "s"}'
 
     @cached_property
     def share(self) -> np.ndarray:

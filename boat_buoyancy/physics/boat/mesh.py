@@ -56,7 +56,7 @@ def read_mesh(path, scale=1.0):
         corners, triangles = _closed(corners, triangles, said)
         corners, triangles = _outward(corners, triangles, said)
     except ValueError as error:
-        raise ValueError(f'hull.mesh: {path}: {error}') from None
+        raise ValueError(f'hull.mesh: {" ".join(str(path).split())}: {error}') from None
     length = float(np.ptp(corners, axis=0).max())
     if not LENGTHS[0] <= length <= LENGTHS[1]:
         likely = '0.001 for a mesh in mm' if length > LENGTHS[1] else '1 for a mesh in m'
@@ -138,13 +138,13 @@ def _closed(corners, triangles, said):
         more = filled(triangles)
         if edge_counts(more) == (0, 0):
             said.append(f'had {gaps} open edges; the holes were closed with '
-                        f'{len(more) - len(triangles)} triangles.')
+                        f'{len(more) - len(triangles)} more triangles.')
             return corners, more
         raise ValueError(f'is open: {gaps} edges belong to one triangle only; close its holes, or '
                          'make a solid of it')
     if crowded:
         raise ValueError(f'has {crowded} edges shared by more than two triangles: take out walls '
-                         'inside it, or join its parts into one solid')
+                         'inside it, and join parts that touch into one solid')
     return corners, triangles
 
 

@@ -19,14 +19,15 @@ Everything is about the centre of mass, along the axes of a boat that lies level
 along x, in the order surge, sway, heave, roll, pitch, yaw.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from itertools import permutations
+from itertools import permutations, product
 
 import numpy as np
 
 from .rest import in_air, rest_state, under_water
 from .stiffness import hydrostatic_stiffness, still_load
+from ..boat.clipping import level_for, waterplane
 from ..rotation import rotation_matrix
 
 MODES = ('heave', 'roll', 'pitch')
@@ -55,7 +56,8 @@ class Equilibrium:
 
     All (6, 6): ``mass`` M; ``stiffness`` K; ``surface_stiffness`` K+, every probe at the surface;
     ``damping`` C at the draft, ``wet_damping`` with every probe under water, ``air_damping`` with
-    none.
+    none.  ``tilted`` 1/s^2, of a hull of panels the greatest eigenvalue of M^-1 K that its
+    waterplane has at any attitude; of others, whose K+ is that of all probes upright, 0.
     """
 
     mass: np.ndarray
@@ -64,22 +66,27 @@ class Equilibrium:
     damping: np.ndarray
     wet_damping: np.ndarray
     air_damping: np.ndarray
+    tilted: float
 
     @classmethod
     @lru_cache(maxsize=64)
     def of(cls, boat):
         """Return the system of a `Boat` where it lies at rest."""
         rest, stiffness = rest_state(boat), np.zeros((6, 6))
-        stiffness[RESTORED, RESTORED] = hydrostatic_stiffness(boat, rest)
+        stiffness[RESTORED, RESTORED] = _stiffness_at_rest(boat.lying)
         x, y, _ = boat.probe_offsets.T
         zero, one = np.zeros(len(x)), np.ones(len(x))
         rows = np.stack([zero, zero, one, y, -x, zero])
         surface_stiffness = rows * boat.hull.stiffness @ rows.T
-        damping = (damping_matrix(still_load(boat, state)[0].damping)
+        # Panels have no part in damping, which is that of the probes and of the whole.
+        bare = boat if boat.hull.panels is None else replace(
+            boat, hull=replace(boat.hull, panels=None))
+        damping = (damping_matrix(still_load(bare, state)[0].damping)
                    for state in (rest, under_water(boat), in_air(boat)))
         mass, surface_stiffness, *damping = (
             levelled(matrix, rest) for matrix in (boat.mass_matrix, surface_stiffness, *damping))
-        return cls(mass, stiffness, surface_stiffness, *damping)
+        tilted = 0.0 if boat.hull.panels is None else _greatest_tilted(boat.lying)
+        return cls(mass, stiffness, surface_stiffness, *damping, tilted)
 
     @cached_property
     def modes(self):
@@ -97,13 +104,45 @@ class Equilibrium:
     def highest_frequency(self):
         """Return omega_max in rad/s, see `highest_frequency`."""
         return float(np.sqrt(max(0.0, _greatest(self.mass, self.surface_stiffness),
-                                 _greatest(self.mass, self.stiffness))))
+                                 _greatest(self.mass, self.stiffness), self.tilted)))
 
     @cached_property
     def highest_damping_rate(self):
         """Return the greatest eigenvalue of M^-1 C in 1/s, all wet or in air."""
         return max(_greatest(self.mass, self.wet_damping),
                    _greatest(self.mass, self.air_damping))
+
+
+@lru_cache(maxsize=64)
+def _stiffness_at_rest(boat):
+    return hydrostatic_stiffness(boat, rest_state(boat))
+
+
+@lru_cache(maxsize=64)
+def _greatest_tilted(boat):
+    """
+    Return the greatest eigenvalue 1/s^2 of M^-1 K of the waterplanes of a hull, however it lies.
+
+    K = rho g integral(g g^T), g = (0, 0, 1, y, -x, 0), at 26 attitudes all around, afloat.
+    """
+    found, surface, per_volume = 0.0, boat.hull.surface, boat.hull.specific_weight
+    for up in product((-1.0, 0.0, 1.0), repeat=3):
+        if not any(up):
+            continue
+        # Three axes of the world in body axes, the third up.
+        up = np.array(up) / np.linalg.norm(up)
+        ahead = np.cross(up, np.eye(3)[np.argmin(np.abs(up))])
+        ahead /= np.linalg.norm(ahead)
+        R = np.array([ahead, np.cross(up, ahead), up])
+        facets = (surface.facets - boat.center_of_mass) @ R.T
+        level = level_for(facets, min(boat.weight / per_volume, surface.volume))
+        area, (x, y), ((xx, xy), (_, yy)) = waterplane(facets - [0.0, 0.0, level])
+        K = np.zeros((6, 6))
+        K[RESTORED, RESTORED] = per_volume * np.array(
+            [[area, y, -x], [y, yy, -xy], [-x, -xy, xx]])
+        turned = np.kron(np.eye(2), R)
+        found = max(found, _greatest(turned @ boat.mass_matrix @ turned.T, K))
+    return found
 
 
 def equilibrium_stiffness(boat):
@@ -142,7 +181,8 @@ def highest_frequency(boat):
     Return omega_max in rad/s, the fastest oscillation that a step has to follow.
 
     omega_max^2 is the larger of the greatest eigenvalues of M^-1 K+ with all probes at the
-    surface and of M^-1 K_eq: the first alone misses a boat hung below its probes.
+    surface and of M^-1 K_eq: the first alone misses a boat hung below its probes.  Of panels that
+    of the waterplane at any attitude counts as well.
     """
     return Equilibrium.of(boat).highest_frequency
 

@@ -77,8 +77,11 @@ def stability_range(boat):
 
 def _righted(boat, rest, side):
     """Return how far in rad from a list ``rest`` the arms to one side (-1 or 1) right a boat."""
+    # On panels they are the same to round-off, and the surface's the quicker.
+    arms_at = righting_arms if boat.hull.panels is None else surface_righting_arms
+
     def rights(away):
-        arm, = righting_arms(boat, [rest + side * away])
+        arm, = arms_at(boat, [rest + side * away])
         return side * arm > NEGLIGIBLE * boat.size
 
     low = 0.0

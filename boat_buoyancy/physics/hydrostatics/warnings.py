@@ -22,12 +22,18 @@ import numpy as np
 from . import rest
 from .metacentric_height import metacentric_heights
 from .rest import NEGLIGIBLE
+from .righting_arm import righting_arms, surface_righting_arms
 from .stiffness import still_load
 from ..boat.hull import LAWS
 from ..boat.state import body_frame
 from ..forces.probe_laws import wetting
 from ..rotation import rotation_matrix, to_world
 
+# Heels in degrees at which a model is held against the hull, and the part of the greatest righting
+# arm by which it has to be off to be told of.
+HEELS, TOLD = np.arange(0.0, 181.0, 5.0), 0.05
+# A rest this many degrees from any of the hull's own is a wrong one.
+WRONG_REST = 10.0
 # A list or trim in degrees below which nobody sees one.
 LEAST_LIST = 0.5
 
@@ -67,6 +73,34 @@ def _filled(boat):
         yield (f'A probe is out of the water at rest ({_named(boat, left)}): it lifts nothing '
                'until it dips in; lower its weight in probes.weights, or move '
                'boat.center_of_mass towards it.')
+
+
+def parting_warnings(boat, heeled=180.0):
+    """
+    Return a sentence, in a tuple, where the righting arms of columns leave those of the hull.
+
+    For a `Boat` that heels up to ``heeled`` degrees; nothing where that is not far enough.
+    """
+    if boat.hull.surface is None or boat.hull.panels is not None or not rest.floats(boat):
+        return ()
+    arms, exact = (find(boat, np.radians(HEELS))
+                   for find in (righting_arms, surface_righting_arms))
+    if np.isnan([arms, exact]).any():
+        return ()
+    off = np.abs(arms - exact)
+    parted = np.flatnonzero(off > TOLD * np.abs(exact).max())
+    if not len(parted) or HEELS[parted[0]] > heeled:
+        return ()
+    worst, kind = np.argmax(off), 'columns' if boat.hull.law == 'column' else 'probes'
+    # A boat rests where arms turn from upsetting to righting.
+    rests, true = (HEELS[:-1][(found[:-1] < 0.0) & (found[1:] > 0.0)] for found in (arms, exact))
+    wrong = [place for place in rests if (np.abs(place - true) > WRONG_REST).all()]
+    lies = (f', and would let it rest between {wrong[0]:.0f} and {wrong[0] + HEELS[1]:.0f} '
+            'degrees, where the hull does not' if wrong else '')
+    return (f'From {HEELS[parted[0]]:.0f} degrees of heel on the {kind} do not follow the hull: '
+            f'their righting arm is up to {off[worst]:.3f} m off (at {HEELS[worst]:.0f} degrees '
+            f'{arms[worst]:.3f} m in place of {exact[worst] + 0.0:.3f} m){lies}; for a boat that '
+            'heels so far take hull.model: panels.',)
 
 
 def dry_thruster_warnings(boat, thrusters):

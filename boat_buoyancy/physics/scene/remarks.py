@@ -18,10 +18,12 @@ import numpy as np
 
 from . import parameters
 from .wave_sampling import sampling_warnings
-from ..hydrostatics.warnings import dry_thruster_warnings
+from ..hydrostatics.warnings import dry_thruster_warnings, parting_warnings
 
 # Somewhat more than 2 pi, so that 6.2832 is one.
 FULL_TURN = 6.2833
+# A start at a heel in degrees beyond this one is looked at.
+HEELING = 10.0
 # Height over length at which a wave breaks in deep water (Michell 1893).
 BREAKING = 1.0 / 7.0
 PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
@@ -102,6 +104,10 @@ def remarks(boat, sea, thrusters, given, in_force):
         if name in given and abs(largest) > FULL_TURN:
             warnings.append(f'{name} has an angle of {largest:g}, more than a full turn: angles '
                             'are in radians, and this looks like degrees.')
+    if 'start.orientation' in given:
+        roll, pitch, _ = given['start.orientation']
+        heel = np.degrees(np.arccos(np.cos(roll) * np.cos(pitch)))
+        warnings += parting_warnings(boat, heel) if heel > HEELING else ()
     return (*warnings, *sea_warnings(sea), *sampling_warnings(boat, sea, in_force),
             *dry_thruster_warnings(boat, thrusters))
 

@@ -39,14 +39,15 @@ def sampling_warnings(boat, sea, values):
     ``values`` {name: value}, the parameters in force.  Of waves along the length or the beam,
     whichever is worse, as a boat turns.
     """
-    amplitude = sea.table[START]
+    amplitude, hull = sea.table[START], boat.hull
     if not amplitude.any():
-        return ()
+        return _unreached(hull)
     k = np.hypot(sea.table[KX], sea.table[KY])
     shortest = f'the shortest wave that matters is {sea.shortest_length:.3g} m long'
-    hull = boat.hull
     if hull.panels is not None:
-        return _between_corners(hull, sea.shortest_length, shortest)
+        too_large = _between_corners(hull, sea.shortest_length, shortest)
+        if too_large or not boat.damping.probe:
+            return too_large or _unreached(hull)
     if hull.surface is None:
         return _between_probes(hull.positions, amplitude, k, shortest)
     sizes = np.ptp(hull.surface.extent, axis=0)[:2]
@@ -57,12 +58,23 @@ def sampling_warnings(boat, sea, values):
     if max(errors) <= TOLD:
         return ()
     enough = [_enough(count, size, amplitude, k) for count, size in zip(given, sizes)]
-    panels = sea.shortest_length / PANELS_A_WAVE >= hull.finest_panel
     cures = [f'hull.probes: {enough}'] if None not in enough else []
-    cures += ['hull.model: panels'] if panels else []
-    return (f'The probes are too far apart for the waves: {shortest}, and on hull.probes: '
-            f'{list(given)} the lift of the waves is off by up to {max(errors):.0%} of their '
+    # Panels feel the lift by themselves, and by damping at the probes what moves past them.
+    what, more = (('lift', []) if hull.panels is None else
+                  ('pull at the probes (damping.probe)', ['damping.probe: 0.0']))
+    cures += more
+    return (f'The probes are too far apart for the waves: {shortest}, and with hull.probes: '
+            f'{list(given)} the {what} of the waves is off by up to {max(errors):.0%} of their '
             f'amplitude (rms); take {", or ".join(cures) or "longer waves or a smaller hull"}.',)
+
+
+def _unreached(hull):
+    """Return the sentence for panels that are larger than was asked for."""
+    if hull.panels is None or not 0.0 < hull.panel_size < hull.panels.longest_edge:
+        return ()
+    return (f'hull.panel_size is {hull.panel_size:g} m, and the panels have edges of up to '
+            f'{hull.panels.longest_edge:.2g} m, as more panels than {MAX_PANELS} are not made; '
+            'give a larger one.',)
 
 
 def _between_corners(hull, length, shortest):

@@ -97,7 +97,7 @@ class Simulation(Stepped):
 
     @property
     def wind(self) -> np.ndarray:
-        """Return the wind (2,) m/s in world x and y; setting another blows with the next step."""
+        """Return the wind in m/s (2,), world x and y; set it for what blows from the next step."""
         return self.sea.wind
 
     @wind.setter
