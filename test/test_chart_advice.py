@@ -180,7 +180,9 @@ def test_a_warning_that_no_setting_spares_a_scene_keeps_it_from_none():
     assert accepts(fine)
     assert not accepts(replace(fine, rate=8.0))
     assert not accepts(Setting('leapfrog', 128.0, (2, 2)))
-    assert accepts(Setting('leapfrog', 128.0, (2, 2), 0.0))
+    # Panels feel the lift by themselves, and damping where the probes are.
+    assert accepts(Setting('leapfrog', 128.0, (8, 8), 0.0))
+    assert not accepts(Setting('leapfrog', 128.0, (2, 2), 0.0))
 
 
 def test_a_size_of_panels_beside_columns_speaks_against_none():

@@ -415,8 +415,8 @@ def test_a_box_of_columns_started_on_its_side_stays_there_and_is_told_that_the_h
     for heel, told in ((0.1, False), (0.3, False), (1.22, True), (1.48, True), (1.75, True)):
         scene = load_scene({'start.orientation': [heel, 0.0, 0.0],
                             'damping.angular_retention': [0.3]})
-        assert any('would let it rest between 90 and 95 degrees, where the hull does not' in sentence
-                   for sentence in scene.warnings) == told
+        said = 'would let it rest between 90 and 95 degrees, where the hull does not'
+        assert any(said in sentence for sentence in scene.warnings) == told
         # The hull rights itself, or turns upside down.
         run = scene.simulation().run(60.0)
         assert (abs(np.degrees(run.roll[-1]) - 90.0) < 3.0) == told
