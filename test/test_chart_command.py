@@ -67,7 +67,7 @@ def test_command_prints_lines_to_paste_with_error_cost_and_speed(capsys, tmp_pat
     for words in ('Error', 'force evaluations', 'µs of CPU time', 'times real time',
                   'Next cheaper', 'As the scene stands'):
         assert words in printed
-    assert 'trying' in captured.err
+    assert 'solving 20 s of the true motion\n' in captured.err
 
 
 @pytest.mark.long

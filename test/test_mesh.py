@@ -124,7 +124,8 @@ def test_several_objects_are_one_surface_and_corners_that_no_triangle_has_are_dr
     twin = joined([beside(BOX, 0.0, y, 0.0) for y in (-3.0, 3.0)])
     content = obj(twin) + b'v 100 100 100\n'
     surface, remarks = read(content.replace(b'f 9', b'o other\nf 9', 1), 'boat.obj')
-    assert same(surface, twin) and len(surface.corners) == 16 and remarks == ()
+    assert same(surface, twin) and len(surface.corners) == 16
+    assert all('is it in body axes' in remark for remark in remarks)
 
 
 @pytest.mark.parametrize('surface', [
@@ -132,7 +133,7 @@ def test_several_objects_are_one_surface_and_corners_that_no_triangle_has_are_dr
     joined([BOX, turned(beside(box_surface((1.0, 1.0, 0.5)), 0.5, 0.0, 0.25))])])
 def test_balls_several_shells_and_cavities_are_taken_as_they_are(read, surface):
     found, remarks = read(binary_stl(surface))
-    assert same(found, surface) and remarks == ()
+    assert same(found, surface) and all('is it in body axes' in remark for remark in remarks)
 
 
 def test_a_thousand_units_are_a_metre_in_a_mesh_of_millimetres(read):
@@ -163,8 +164,8 @@ NOISE = np.random.default_rng(3).uniform(-1e-7, 1e-7, (320, 3, 3))
      'had 5 of 325 triangles without area or given twice'),
     (Surface(BALL.corners, np.concatenate([BALL.triangles, [[1, 1, 2], [4, 5, 4]]])), BALL,
      'had 2 of 322 triangles without area'),
-    (Surface(BALL.corners, BALL.triangles[1:]), BALL, 'the holes were closed with 1 triangles'),
-    (Surface(BOX.corners, BOX.triangles[2:]), BOX, 'the holes were closed with 2 triangles'),
+    (Surface(BALL.corners, BALL.triangles[1:]), BALL, 'the holes were closed with 1 triangle.'),
+    (Surface(BOX.corners, BOX.triangles[2:]), BOX, 'the holes were closed with 2 triangles.'),
     (Surface((BALL.facets + NOISE).reshape(-1, 3), np.arange(960)), BALL,
      'had 960 open edges; they were closed by joining corners nearer than 2e-05 m.'),
     (joined([BALL, BALL]), BALL, 'given twice'),
@@ -330,3 +331,18 @@ def test_the_rigid_inflatable_has_the_dimensions_of_its_source():
     assert bottom.sum() == 12
     np.testing.assert_allclose(normals[:, 2] / np.linalg.norm(normals, axis=1),
                                -np.cos(np.radians(24.0)), rtol=1e-6)
+
+
+@pytest.mark.parametrize('axes, said', [
+    ([0, 1, 2], ()), ([0, 2, 1], ('is 3 m long (x), 0.5 m wide (y) and 1.2 m high (z)',)),
+    ([1, 0, 2], ('is 1.2 m long (x), 3 m wide (y) and 0.5 m high (z)',))])
+def test_axes_that_are_mixed_up_are_asked_about(read, axes, said):
+    _, remarks = read(binary_stl(box_surface(np.array([3.0, 1.2, 0.5])[axes])))
+    assert len(remarks) == len(said)
+    assert all(part in remark and 'is it in body axes' in remark
+               for part, remark in zip(said, remarks))
+
+
+def test_half_a_hull_is_asked_about(read):
+    remark, = read(binary_stl(box_surface((3.0, 0.6, 0.5), (0.0, 0.3, 0.0))))[1]
+    assert 'lies all on one side of its middle plane' in remark

@@ -14,20 +14,26 @@
 
 """The progress line of programs that take minutes."""
 
+from time import monotonic
+
+# Time in s from one line in a file to the next.
+PERIOD = 10.0
+
 
 class Progress:
     """One line on standard error that is written over, where there is somebody to see it."""
 
     def __init__(self, stream):
         """Write to ``stream``."""
-        self._stream, self._width = stream, 0
+        self._stream, self._width, self._next = stream, 0, 0.0
 
     def __call__(self, text):
-        """Show a text in place of the last; on a file, a line of its own."""
+        """Show a text in place of the last; in a file, a line now and then."""
         if self._stream.isatty():
             self._stream.write(f'\r{text.ljust(self._width)}')
             self._width = len(text)
-        else:
+        elif monotonic() >= self._next:
+            self._next = monotonic() + PERIOD
             self._stream.write(f'{text}\n')
         self._stream.flush()
 

@@ -62,7 +62,9 @@ def _at_rest(result):
     if result['rest_roll_deg'] is None:
         yield 'No rest in still water'
     else:
-        yield f'At rest in still water: {attitude(result)}'
+        unstable = min(result['gm_transverse_m'], result['gm_longitudinal_m']) < 0.0
+        yield (f'At rest in still water: {attitude(result)}'
+               + (', until the least push turns it over' if unstable else ''))
     for name, key, unit, meaning in rows:
         if not (probes and key in ('displaced_volume_m3', 'wetted_surface_m2')):
             yield f'  {name:<16} {_number(result[key], 6):>10} {unit:<3} {meaning}'

@@ -30,6 +30,10 @@ MOST_TRIANGLES = 100_000
 NEAR = 1e-5
 # Of its extent cubed: what encloses less is flat.
 FLAT = 1e-12
+# Of its breadth squared, the product of what is on either side of the middle plane at least.
+HALF = 1e-3
+# Few boats are so many times as wide as long, or as high as wide.
+WIDE = 1.5
 # No boat is shorter or longer, m.
 LENGTHS = 0.05, 500.0
 
@@ -61,6 +65,12 @@ def read_mesh(path, scale=1.0):
     if not LENGTHS[0] <= length <= LENGTHS[1]:
         likely = '0.001 for a mesh in mm' if length > LENGTHS[1] else '1 for a mesh in m'
         said.append(f'makes this boat {length:.4g} m long: is hull.scale right ({likely})?')
+    (x, y, z), middle = np.ptp(corners, axis=0), corners[:, 1].min() * corners[:, 1].max()
+    if y > WIDE * x or z > WIDE * y:
+        said.append(f'is {x:.3g} m long (x), {y:.3g} m wide (y) and {z:.3g} m high (z): is it in '
+                    'body axes, x ahead, y to port, z up?')
+    if middle >= -HALF * y * y:
+        said.append('lies all on one side of its middle plane, y = 0: is it half a hull?')
     return Surface(corners, triangles), tuple(f'The mesh {path.name} {what}' for what in said)
 
 
@@ -137,8 +147,9 @@ def _closed(corners, triangles, said):
             return joined
         more = filled(triangles)
         if edge_counts(more) == (0, 0):
-            said.append(f'had {gaps} open edges; the holes were closed with '
-                        f'{len(more) - len(triangles)} more triangles.')
+            added = len(more) - len(triangles)
+            said.append(f'had {gaps} open edges; the holes were closed with {added} '
+                        f'triangle{"" if added == 1 else "s"}.')
             return corners, more
         raise ValueError(f'is open: {gaps} edges belong to one triangle only; close its holes, or '
                          'make a solid of it')

@@ -168,11 +168,12 @@ def _mode(rest, squared, shape):
     force[RESTORED] = rest.stiffness[RESTORED, RESTORED] @ shape
     # All six coordinates of the mode: M phi omega^2 = K phi.
     shape = np.linalg.solve(rest.mass, force)
-    frequency, moved = float(np.sqrt(squared)), shape @ rest.mass @ shape
-    if not moved > 0.0:
-        # So slow that no number is left of it.
+    size = np.abs(shape).max()
+    if not 0.0 < size < np.inf:
+        # So slow or fast that no number is left of it.
         return Mode(None, None, None)
-    ratio = shape @ rest.damping @ shape / (2 * frequency * moved)
+    shape, frequency = shape / size, float(np.sqrt(squared))
+    ratio = shape @ rest.damping @ shape / (2 * frequency * (shape @ rest.mass @ shape))
     return Mode(frequency, 2 * np.pi / frequency, float(ratio))
 
 

@@ -161,10 +161,15 @@ def _listing(boat):
     sides = ' and '.join(side for side, angle in (
         ('starboard' if roll > 0.0 else 'port', roll), ('bow' if pitch > 0.0 else 'stern', pitch))
         if angle)
+    # Where the centre of mass would have to be, level above the lift; no cure for an axis mixed up.
+    place = boat.center_of_mass + [-torque[1] / boat.weight, torque[0] / boat.weight, 0.0]
+    there = f'boat.center_of_mass: [{", ".join(f"{round(c, 4) + 0.0:.5g}" for c in place)}]'
     weights = ', or change probes.weights' if boat.hull.surface is None else ''
+    cure = ('is its centre of mass right?' if rest.turns_over(boat) else
+            f'to level it, give {there}{weights}')
     yield (f'The boat does not lie level: held level, its lift acts {" and ".join(places)} of its '
            f'centre of mass, so the boat {turned} at roll {roll:g} and pitch {pitch:g} degrees '
-           f'({sides} down); to level it, move boat.center_of_mass there{weights}.')
+           f'({sides} down); {cure}{"" if cure.endswith("?") else "."}')
 
 
 def _shares(boat, state):

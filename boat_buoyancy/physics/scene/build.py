@@ -137,14 +137,12 @@ def _waves(in_force):
     """Return the rows of waves of the one kind that is asked for."""
     rows, state = in_force['sea.waves'] or (), in_force['sea.sea_state']
     height, period = in_force['sea.significant_height'], in_force['sea.peak_period']
-    asked = [names[0] for names in WAVE_KINDS if any(in_force[name] for name in names)]
+    asked = [names[0] for names in WAVE_KINDS if in_force[names[0]]]
     if len(asked) > 1:
         raise ValueError(f'sea: expected one kind of waves, got {" and ".join(asked)}')
-    if bool(height) != bool(period):
-        missing, there = (('sea.peak_period', 'sea.significant_height') if height
-                          else ('sea.significant_height', 'sea.peak_period'))
-        raise ValueError(f'{missing}: expected a number above 0 because {there} is '
-                         f'{height or period:g}, got 0')
+    if height and not period:
+        raise ValueError('sea.peak_period: expected a number above 0 because '
+                         f'sea.significant_height is {height:g}, got 0; set the period first')
     if state:
         height, period = spectra.sea_state(state, in_force['gravity'])
     if not height:

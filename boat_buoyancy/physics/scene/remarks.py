@@ -54,6 +54,8 @@ def check_together(given, in_force):
         if len(weights) != count:
             raise ValueError(f'probes.weights: expected {count} numbers, one for every probe, '
                              f'got {len(weights)}: {list(weights)}')
+    if 'hull.mesh' in given and 'hull.shape' not in given:
+        raise ValueError('hull.shape: expected mesh because hull.mesh is given, got none')
     shape, spacing = in_force['hull.shape'], in_force['hull.spacing']
     if shape == 'mesh' and in_force['hull.mesh'] is None:
         raise ValueError('hull.mesh: expected the path of a file because hull.shape is mesh, got '
@@ -104,6 +106,13 @@ def remarks(boat, sea, thrusters, given, in_force):
         if name in given and abs(largest) > FULL_TURN:
             warnings.append(f'{name} has an angle of {largest:g}, more than a full turn: angles '
                             'are in radians, and this looks like degrees.')
+    if boat.hull.surface is not None:
+        low, high = boat.hull.surface.extent
+        away = np.maximum(low - boat.center_of_mass, boat.center_of_mass - high).max()
+        if away > (high - low).max():
+            warnings.append(f'boat.center_of_mass is {away:.3g} m outside of the hull, which is '
+                            f'{(high - low).max():.3g} m long: is it in metres, in the body '
+                            'frame?')
     if 'start.orientation' in given:
         roll, pitch, _ = given['start.orientation']
         heel = np.degrees(np.arccos(np.cos(roll) * np.cos(pitch)))
@@ -136,6 +145,8 @@ def _without_effect(in_force):
         yield 'wind.velocity', 'wind acts through wind.drag, which is all zeros'
     if not in_force['thrusters.names']:
         yield 'thrusters.lag', 'there is no thruster: give thrusters.names'
+    if not in_force['sea.significant_height']:
+        yield 'sea.peak_period', 'it goes with sea.significant_height, which is 0'
     if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:
         for name in ('sea.direction', 'sea.components', 'sea.seed'):
             yield name, ('it shapes an irregular sea, and there is none: give sea.sea_state or '

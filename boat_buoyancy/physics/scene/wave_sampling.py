@@ -84,7 +84,8 @@ def _between_corners(hull, length, shortest):
         return ()
     cure = (f'take hull.panel_size: {_rounded_down(needed)} or less, or 0 to have it chosen'
             if needed >= hull.finest_panel else
-            f'take longer waves or a smaller hull, as more panels than {MAX_PANELS} are not made')
+            f'more than {MAX_PANELS} are not made: take longer waves, a smaller hull or '
+            'hull.model: columns')
     return (f'The panels are too large for the waves: {shortest} and wants edges of at most '
             f'{needed:.2g} m, and the panels have edges of up to {longest:.2g} m; {cure}.',)
 

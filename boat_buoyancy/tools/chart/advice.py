@@ -143,8 +143,8 @@ def _unpredictable(trial, tolerance, second):
     """Return the advice where the true motion itself is not known to the tolerance."""
     return Advice(None, None, None,
                   f'The true motion limits it: by {trial.compared} it is known to '
-                  f'{trial.own_error:.2g} m, so {tolerance:g} m means nothing here; damping, a '
-                  f'gentler sea or a tolerance of {5.0 * trial.own_error:.2g} m do.',
+                  f'{trial.own_error:.2g} m, and a tolerance has to be five times that to mean '
+                  f'something; take {5.0 * trial.own_error:.2g} m, more damping or a gentler sea.',
                   trial.stretch.name, second.name, trial.stretch.duration)
 
 
