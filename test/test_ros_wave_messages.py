@@ -17,6 +17,7 @@
 from array import array
 import math
 import re
+import time
 
 from boat_buoyancy.physics.sea.waves import Sea
 from boat_buoyancy.ros.complaints import Refused
@@ -87,10 +88,22 @@ def test_a_layout_of_rows_is_taken(layout):
 
 
 @pytest.mark.parametrize('layout', [
-    ([4, 2],), ([2, 4], [4, 8]), ([2, 4], [8, 2]), ([2, 4], [8, 4], 1), ([2, 2, 2],), ([3, 4],)])
+    ([4, 2],), ([2, 4], [4, 8]), ([2, 4], [8, 2]), ([2, 4], [8, 4], 1), ([3, 4],)])
 def test_a_layout_of_anything_but_rows_is_refused(layout):
     with pytest.raises(Refused, match='expected rows of four one after the other, .* got sizes'):
         unpack_waves(laid_out(8, *layout))
+
+
+def test_a_layout_of_many_dimensions_is_refused_at_once_in_one_short_line():
+    # As many as fit into a message of the greatest length; their products of all sizes that
+    # follow would take more than 10 s.
+    raw = laid_out(8, [2, 2, 2] + [2] * 3500)
+    began = time.monotonic()
+    with pytest.raises(Refused, match='got 3503 dimensions$') as raised:
+        unpack_waves(raw)
+    assert time.monotonic() - began < 0.5 and len(str(raised.value)) < 200
+    with pytest.raises(Refused, match='got 3 dimensions$'):
+        unpack_waves(laid_out(8, [2, 2, 2]))
 
 
 def test_the_sea_in_force_can_be_sent_back_as_it_comes(probe, ask):

@@ -28,6 +28,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from .session import WAVES
+from ..physics.checks import shown
 from ..physics.scene.parameter_file import ROS_OWN
 from ..physics.scene.parameters import check_names, PARAMETERS, WAVE_KINDS
 from ..physics.scene.scene import scene_from_values
@@ -65,8 +66,8 @@ def typed(parameter):
         except ValueError:
             return value
         raise ValueError(f'{parameter.name}: expected one flat list of numbers, all with a '
-                         f'decimal point or all without, got the text {value!r}; type '
-                         f'{str(numbers)!r}')
+                         f'decimal point or all without, got the text {shown(value)}; type '
+                         f'{shown(str(numbers))}')
     return value
 
 

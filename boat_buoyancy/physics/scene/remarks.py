@@ -18,6 +18,7 @@ import numpy as np
 
 from . import parameters
 from .wave_sampling import sampling_warnings
+from ..checks import shown
 from ..hydrostatics.warnings import dry_thruster_warnings
 
 # Somewhat more than 2 pi, so that 6.2832 is one.
@@ -46,12 +47,12 @@ def check_together(given, in_force):
     positions = given.get('probes.positions')
     if positions is not None and (not positions or len(positions) % 3):
         raise ValueError('probes.positions: expected x, y, z of every probe, at least one '
-                         f'probe, got {len(positions)} numbers: {list(positions)}')
+                         f'probe, got {len(positions)} numbers: {shown(list(positions))}')
     if positions and 'probes.weights' in given:
         weights, count = given['probes.weights'], len(positions) // 3
         if len(weights) != count:
             raise ValueError(f'probes.weights: expected {count} numbers, one for every probe, '
-                             f'got {len(weights)}: {list(weights)}')
+                             f'got {len(weights)}: {shown(list(weights))}')
     shape, spacing = in_force['hull.shape'], in_force['hull.spacing']
     if shape == 'mesh' and in_force['hull.mesh'] is None:
         raise ValueError('hull.mesh: expected the path of a file because hull.shape is mesh, got '
