@@ -143,9 +143,15 @@ def test_waves_lift_the_boat_and_the_sea_in_force_is_shown(probe, ask):
     probe.until(lambda: min(m.pose.position.z for m in probe.poses) < level - 0.15)
 
 
-def test_waves_that_no_water_could_have_are_warned_of(boat, ask):
+def test_waves_that_no_water_could_have_are_warned_of(boat, probe, ask):
     ask([0.05, 0.5, 0.0, 0.0])
     boat.wait_for_log('The waves are steeper than water can be')
+    # More of them are not said each time.
+    for phase in (0.1, 0.2, 0.3, 0.4):
+        rows = [0.05, 0.5, 0.0, phase]
+        ask(rows)
+        probe.until(lambda: probe.waves[-1].data.tolist() == rows)
+    assert boat.log.count('steeper than water can be') == 1
 
 
 def test_an_ordinary_publisher_is_heard_without_a_warning(boat, probe, ask):

@@ -82,6 +82,7 @@ class BoatNode(ParameterNode):
         self._paused = False
         # rclpy wants one severity for each line of code that it is called from.
         self._news = Throttle(lambda sentence: self.get_logger().info(sentence))
+        self._bad_news = Throttle(lambda sentence: self.get_logger().warning(sentence))
         now = time.monotonic()
         self._reports = Reports(self, self.session, now)
         self._reports.loaded()
@@ -95,10 +96,11 @@ class BoatNode(ParameterNode):
         self._waves_output = WavesOutput(self)
         self._waves_input = WavesInput(self, self._reports.complaints, self._on_waves)
         guarded = self._reports.complaints.guarded
+        command = self._reports.command
         self.create_subscription(
-            WrenchStamped, 'thrust', guarded('thrust', self._on_thrust), qos.THRUST)
+            WrenchStamped, 'thrust', command('thrust', self._on_thrust), qos.THRUST)
         for thruster in scene.thrusters:
-            ThrusterInput(self, thruster.name, self.session, guarded)
+            ThrusterInput(self, thruster, self.session, command)
         self.create_subscription(
             Vector3Stamped, 'wind', guarded('wind', self._on_wind), qos.WIND)
         self.create_subscription(PoseWithCovarianceStamped, 'initialpose',
@@ -178,7 +180,6 @@ class BoatNode(ParameterNode):
     def _on_thrust(self, message):
         wrench, in_world = read_wrench(message, self.session.scene)
         self.session.thrust.hold(wrench, in_world, self.session.age)
-        self._reports.rivals.heard(wrench, time.monotonic())
 
     def _on_waves(self, rows):
         if self.session.set_waves(rows):
@@ -188,7 +189,7 @@ class BoatNode(ParameterNode):
             self._news.say('waves', f'waves: {len(self.session.sea.waves)} in force{panels}',
                            time.monotonic())
             for sentence in sea_warnings(self.session.sea):
-                self.get_logger().warning(sentence)
+                self._bad_news.say('waves', sentence, time.monotonic())
 
     def _on_wind(self, message):
         x, y = wind = read_wind(message, self.session.scene)
@@ -203,7 +204,7 @@ class BoatNode(ParameterNode):
             raise Refused('stopped', 'initialpose: the motion was stopped by a fault; expected a '
                           'call of ~/reset first')
         self.session.place(x, y, yaw)
-        self._news.say('place', f'boat put at x {x:.2f} y {y:.2f} m, floating at its draft',
+        self._news.say('place', f'boat put at x {x:.2f} y {y:.2f} m, as it lies at rest',
                        time.monotonic())
         self._show_paused()
 

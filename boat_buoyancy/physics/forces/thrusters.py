@@ -34,8 +34,8 @@ class Thruster:
 
     Main arguments: ``name``; ``position`` (3) m in the body frame, where it pushes.
     Other arguments: ``direction`` (3) in body axes, of any length but 0, where it pushes the boat
-    at an angle of 0; ``least`` and ``greatest`` N that it gives, 0 between them; ``lag`` s, the time constant of
-    its thrust.  ValueError says what is wrong.
+    at an angle of 0; ``least`` and ``greatest`` N that it gives, 0 between them; ``lag`` s, the
+    time constant of its thrust.  ValueError says what is wrong.
     """
 
     name: str
@@ -60,6 +60,10 @@ class Thruster:
         object.__setattr__(self, 'position', position)
         object.__setattr__(self, 'direction', scale(1.0 / length, direction))
 
+    def limited(self, command: float) -> float:
+        """Return a command in N cut to the limits."""
+        return min(max(command, self.least), self.greatest)
+
     def driven(self, force: float, command: float, duration: float) -> tuple[float, float]:
         """
         Return the mean thrust over ``duration`` s and the thrust after it, in N.
@@ -68,7 +72,7 @@ class Thruster:
         lag T' = command - T: T+ = command + (T - command) e, e = exp(-duration / lag), and the
         mean is command + (T - command) (1 - e) lag / duration.
         """
-        command = min(max(command, self.least), self.greatest)
+        command = self.limited(command)
         if self.lag == 0.0:
             return command, command
         gone = -math.expm1(-duration / self.lag)
