@@ -66,7 +66,7 @@ class BoatNode(ParameterNode):
         with startup.warnings_said(self.get_logger().warning):
             if given.get('publish_tf') is True:
                 given.setdefault('frame_prefix', transforms.prefix(self.get_namespace()))
-            if 'hull.mesh' in given:
+            if isinstance(given.get('hull.mesh'), str):
                 folder = startup.folder_of(sys.argv, 'hull.mesh', given['hull.mesh'])
                 given['hull.mesh'] = os.path.join(folder, given['hull.mesh'])
             scene = scene_from_values(given)
