@@ -12,20 +12,28 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""
+r"""
 Drive the two thrusters of a catamaran by cmd_vel, as Nav2 sends it.
 
+    ros2 launch boat_buoyancy boat.launch.py scene:=wam_v namespace:=wamv
     python3 cmd_vel_to_thrusters.py --ros-args -r __ns:=/wamv
 
+Beside vrx.launch.py, where odom has another name:
+
+    ros2 launch boat_buoyancy vrx.launch.py
+    python3 cmd_vel_to_thrusters.py --ros-args -r __ns:=/wamv \
+        -r odom:=sensors/position/ground_truth_odometry
+
 Force and torque are proportional to what is missing of the speed and of the turn asked for, by
-what odom says of them; so some of both stays missing. Without cmd_vel for half a second it falls
-silent, and the boat's own thrust.timeout ends the thrust.
+what odom says of them; so some of both stays missing. Without cmd_vel for half a second it sends
+no thrust for as long, and then falls silent.
 """
 
 import time
 
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import ParameterDescriptor
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -38,6 +46,7 @@ DEFAULTS = {
     'arm': 1.027135,       # m, of each thruster from the centre line
     'patience': 0.5,       # s without cmd_vel
 }
+SILENCE = 2.0  # s without odom
 
 
 def thrusts(asked, held, gains):
@@ -53,9 +62,10 @@ class CmdVelToThrusters(Node):
     def __init__(self):
         """Begin without a command."""
         super().__init__('cmd_vel_to_thrusters')
-        self._gains = {name: self.declare_parameter(name, default).value
+        number = ParameterDescriptor(dynamic_typing=True)  # with or without a decimal point
+        self._gains = {name: float(self.declare_parameter(name, default, number).value)
                        for name, default in DEFAULTS.items()}
-        self._asked, self._until = (0.0, 0.0), 0.0
+        self._asked, self._until, self._heard = (0.0, 0.0), 0.0, time.monotonic()
         self._thrusters = [self.create_publisher(Float64, f'thrusters/{side}/thrust', 1)
                            for side in ('left', 'right')]
         self.create_subscription(Twist, 'cmd_vel', self._on_command, 1)
@@ -63,15 +73,22 @@ class CmdVelToThrusters(Node):
 
     def _on_command(self, message):
         self._asked = message.linear.x, message.angular.z
-        self._until = time.monotonic() + self._gains['patience']
+        now = time.monotonic()
+        self._until = now + self._gains['patience']
+        if now - self._heard > SILENCE:
+            self.get_logger().warning(
+                f'nothing comes on {self.resolve_topic_name("odom")}, so nothing is driven: start '
+                'a boat that publishes it, or give its name there with -r odom:=NAME', once=True)
 
     def _on_odometry(self, message):
-        if time.monotonic() < self._until:
-            twist = message.twist.twist
-            held = twist.linear.x, twist.angular.z
-            for publisher, thrust in zip(self._thrusters,
-                                         thrusts(self._asked, held, self._gains)):
-                publisher.publish(Float64(data=thrust))
+        now = self._heard = time.monotonic()
+        if now > self._until + self._gains['patience']:
+            return
+        twist = message.twist.twist
+        both = (thrusts(self._asked, (twist.linear.x, twist.angular.z), self._gains)
+                if now < self._until else (0.0, 0.0))
+        for publisher, thrust in zip(self._thrusters, both):
+            publisher.publish(Float64(data=thrust))
 
 
 def main():

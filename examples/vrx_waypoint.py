@@ -23,7 +23,9 @@ thrusts go out. It ends when the boat is there.
 """
 
 import math
+import time
 
+from rcl_interfaces.msg import ParameterDescriptor
 import rclpy
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -59,7 +61,8 @@ class Waypoint(Node):
     def __init__(self):
         """Wait for the IMU."""
         super().__init__('vrx_waypoint')
-        self._goal = [self.declare_parameter(name, default).value
+        number = ParameterDescriptor(dynamic_typing=True)  # with or without a decimal point
+        self._goal = [float(self.declare_parameter(name, default, number).value)
                       for name, default in (('latitude', -33.7240), ('longitude', 150.6800))]
         self.arrived, self._heading, self._turn = False, None, 0.0
         self._thrusters = [self.create_publisher(Float64, f'{BOAT}/thrusters/{side}/thrust', 10)
@@ -79,7 +82,8 @@ class Waypoint(Node):
         if self._heading is None:
             return
         east, north = way_to(self._goal, (message.latitude, message.longitude))
-        self.arrived = math.hypot(east, north) < THERE
+        # For good: it may glide on.
+        self.arrived = self.arrived or math.hypot(east, north) < THERE
         both = (0.0, 0.0) if self.arrived else thrusts(east, north, self._heading, self._turn)
         for publisher, thrust in zip(self._thrusters, both):
             publisher.publish(Float64(data=thrust))
@@ -93,8 +97,10 @@ def main():
         while not node.arrived:
             rclpy.spin_once(node)
         node.get_logger().info('there')
-        # What was sent last may still be on its way.
-        rclpy.spin_once(node, timeout_sec=0.5)
+        # What is sent last may still be on its way, and the boat holds what it was sent before.
+        end = time.monotonic() + 0.5
+        while time.monotonic() < end:
+            rclpy.spin_once(node, timeout_sec=0.1)
         rclpy.shutdown()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass

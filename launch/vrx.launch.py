@@ -27,16 +27,18 @@ import os
 
 from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription
+from launch.actions import (DeclareLaunchArgument, GroupAction, IncludeLaunchDescription,
+                            OpaqueFunction)
 from launch.launch_description_sources import PythonLaunchDescriptionSource
-from launch_ros.actions import SetParametersFromFile, SetRemap
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import SetParameter, SetParametersFromFile, SetRemap
 
 LAUNCH = os.path.join(get_package_share_directory('boat_buoyancy'), 'launch')
 
 # What is another default here than in boat.launch.py.
 ARGUMENTS = {
     'scene': ('wam_v', 'A scene with thrusters left and right.'),
-    'namespace': ('wamv', 'Namespace of the boat.'),
+    'namespace': ('wamv', 'Namespace of the boat, also what comes before its frame.'),
 }
 
 TOPICS = {
@@ -44,6 +46,12 @@ TOPICS = {
     'fix': 'sensors/gps/gps/fix',
     'odom': 'sensors/position/ground_truth_odometry',
 }
+
+
+def prefix(context):
+    """Set what comes before the frame of the boat, as wamv/base_link."""
+    name = LaunchConfiguration('namespace').perform(context).strip('/')
+    return [SetParameter('frame_prefix', f'{name}/')] if name else []
 
 
 def generate_launch_description():
@@ -54,5 +62,6 @@ def generate_launch_description():
         GroupAction([
             *(SetRemap(ours, theirs) for ours, theirs in TOPICS.items()),
             SetParametersFromFile(os.path.join(LAUNCH, 'vrx.yaml')),
+            OpaqueFunction(function=prefix),
             IncludeLaunchDescription(
                 PythonLaunchDescriptionSource(os.path.join(LAUNCH, 'boat.launch.py')))])])

@@ -61,7 +61,8 @@ STAND_INS = {
     'launch.launch_description_sources': {'PythonLaunchDescriptionSource': Kept},
     'launch.substitutions': {'LaunchConfiguration': LaunchConfiguration},
     'launch_ros': {},
-    'launch_ros.actions': dict.fromkeys(('Node', 'SetParametersFromFile', 'SetRemap'), Kept)}
+    'launch_ros.actions': dict.fromkeys(('Node', 'SetParameter', 'SetParametersFromFile',
+                                         'SetRemap'), Kept)}
 
 
 @pytest.fixture
@@ -193,7 +194,7 @@ def test_the_boat_of_vrx_has_its_topics_and_all_arguments_of_one_boat(load, star
     *arguments, group = load('vrx').generate_launch_description().arguments[0]
     defaults = {argument.arguments[0]: argument.options['default_value'] for argument in arguments}
     assert defaults == {'scene': 'wam_v', 'namespace': 'wamv'}
-    *remaps, parameters, include = group.arguments[0]
+    *remaps, parameters, prefix, include = group.arguments[0]
     assert {remap.arguments for remap in remaps} == {
         ('imu', 'sensors/imu/imu/data'), ('fix', 'sensors/gps/gps/fix'),
         ('odom', 'sensors/position/ground_truth_odometry')}
@@ -202,6 +203,11 @@ def test_the_boat_of_vrx_has_its_topics_and_all_arguments_of_one_boat(load, star
     assert 'launch_arguments' not in include.options
     boat, = start(**defaults, sea_state='1')
     more = parameter_file.read(parameters.arguments[0])
+    assert prefix.options['function']({'namespace': ''}) == []
+    for namespace, expected in (('/one/two', 'one/two/'), ('wamv', 'wamv/')):
+        before, = prefix.options['function']({'namespace': namespace})
+        assert before.arguments == ('frame_prefix', expected)
+    more.update([before.arguments])
     scene = load_scene({**more, **scene_of(boat).given})
     assert [thruster.name for thruster in scene.thrusters] == ['left', 'right']
     assert (scene.world_frame, scene.body_frame) == ('map', 'wamv/base_link')

@@ -18,12 +18,15 @@ import ast
 import importlib.util
 import math
 from pathlib import Path
+import re
+import shlex
 import signal
 import subprocess
 import sys
+import time
 
-from boat_buoyancy.physics.scene.parameter_file import read
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 import pytest
@@ -32,7 +35,6 @@ from ros_probe import BoatProcess, Probe, ROOT
 import yaml
 
 EXAMPLES = ROOT / 'examples'
-WAM_V = read(ROOT / 'config' / 'wam_v.yaml')
 QUIET = {'status_period': 0.0}
 
 
@@ -73,10 +75,33 @@ def held(gain, asked, linear, quadratic):
     return (-b + math.sqrt(b * b + 4.0 * quadratic * gain * asked)) / (2.0 * quadratic)
 
 
-def test_cmd_vel_is_held_as_far_as_its_gain_can_and_stops_when_it_falls_silent():
-    with BoatProcess({**WAM_V, **QUIET}) as boat, Probe(boat.namespace) as probe, \
-            Example('cmd_vel_to_thrusters.py', '-r', f'__ns:={boat.namespace}') as example:
-        odometry = probe.listen(Odometry, 'odom')
+def head(name):
+    """Return {words of a launch: arguments of the example beside it} of an example's head."""
+    text = ast.get_docstring(ast.parse((EXAMPLES / name).read_text())).replace('\\\n', '')
+    return {launch: shlex.split(arguments) for launch, arguments in re.findall(
+        rf'^ +ros2 launch boat_buoyancy (.*)\n +python3 {name} --ros-args (.*)$', text,
+        re.MULTILINE)}
+
+
+# The namespace and the arguments of the boat that a launch file starts.
+LAUNCHED = {
+    'boat.launch.py scene:=wam_v namespace:=wamv': lambda: [
+        '--params-file', str(ROOT / 'config' / 'wam_v.yaml')],
+    'vrx.launch.py': lambda: [
+        '--params-file', str(ROOT / 'launch' / 'vrx.yaml'),
+        '--params-file', str(ROOT / 'config' / 'wam_v.yaml'), *remappings()]}
+
+
+@pytest.mark.parametrize('launch', LAUNCHED)
+def test_cmd_vel_is_held_as_far_as_its_gain_can_and_stops_when_it_falls_silent(launch):
+    heads = head('cmd_vel_to_thrusters.py')
+    assert [*heads] == [*LAUNCHED]
+    # Numbers without a decimal point are numbers.
+    with BoatProcess(QUIET, namespace='/wamv', arguments=LAUNCHED[launch]()) as boat, \
+            Probe(boat.namespace) as probe, Example(
+                'cmd_vel_to_thrusters.py', *heads[launch], '-p', 'speed_gain:=1000') as example:
+        odometry = probe.listen(Odometry, 'sensors/position/ground_truth_odometry'
+                                if launch.startswith('vrx') else 'odom')
         command = probe.publisher(Twist, 'cmd_vel')
 
         def drive(ahead, turn, goal, part):
@@ -88,10 +113,22 @@ def test_cmd_vel_is_held_as_far_as_its_gain_can_and_stops_when_it_falls_silent()
         # Drag of the WAM-V: 100 u + 150 u^2 ahead, 800 r + 800 r^2 turning.
         drive(1.0, 0.0, held(1000.0, 1.0, 100.0, 150.0), lambda twist: twist.linear.x)
         drive(0.0, 0.3, held(1500.0, 0.3, 800.0, 800.0), lambda twist: twist.angular.z)
-        # Without a command neither the example nor, half a second later, the boat pushes.
+        # Without a command it does not push, though a boat of VRX holds its last thrust.
         probe.until(lambda: abs(odometry[-1].twist.twist.angular.z) < 0.02)
         example.process.send_signal(signal.SIGINT)
         assert example.process.wait(10.0) == 0
+
+
+def test_cmd_vel_without_odom_is_one_line():
+    with Probe('/nobody') as probe, \
+            Example('cmd_vel_to_thrusters.py', '-r', '__ns:=/nobody') as example:
+        command = probe.publisher(Twist, 'cmd_vel')
+        started = time.monotonic()
+        probe.until(lambda: time.monotonic() > started + 4.0,
+                    doing=lambda: command.publish(Twist()))
+        example.process.send_signal(signal.SIGINT)
+        _, said = example.process.communicate(timeout=10.0)
+        assert said.count('nothing comes on /nobody/odom, so nothing is driven: ') == 1
 
 
 def test_more_turn_is_more_on_the_right():
@@ -113,10 +150,8 @@ def remappings():
 def test_a_controller_written_for_vrx_brings_the_boat_of_the_launch_file_to_a_place():
     # 30 m to the north-west of a boat that heads east, four times as fast as real time.
     latitude, longitude = -33.724223 + 21.0 / 110_900.0, 150.679736 - 21.0 / 92_700.0
-    files = ['--params-file', str(ROOT / 'launch' / 'vrx.yaml'),
-             '--params-file', str(ROOT / 'config' / 'wam_v.yaml')]
     with BoatProcess({**QUIET, 'publish_clock': True, 'time_factor': 4.0}, namespace='/wamv',
-                     arguments=[*files, *remappings()]) as boat, Probe('/wamv') as probe:
+                     arguments=LAUNCHED['vrx.launch.py']()) as boat, Probe('/wamv') as probe:
         odometry = probe.listen(Odometry, 'sensors/position/ground_truth_odometry')
         probe.until(lambda: odometry)
         with Example('vrx_waypoint.py', '-p', f'latitude:={latitude}', '-p',
@@ -127,6 +162,12 @@ def test_a_controller_written_for_vrx_brings_the_boat_of_the_launch_file_to_a_pl
         place = odometry[-1].pose.pose.position
         assert math.hypot(place.x + 21.0, place.y - 21.0) < 3.5
         assert boat.alive
+        # The last thrust was none, and the boat has it.
+        sent = []
+        probe.node.create_subscription(DiagnosticArray, '/diagnostics', sent.append, 10)
+        probe.until(lambda: sent)
+        values = {item.key: item.value for item in sent[0].status[0].values}
+        assert {values[f'thruster {side} (N)'] for side in ('left', 'right')} == {'0'}
 
 
 # robot_localization

@@ -72,6 +72,8 @@ BAD_ARGUMENTS = [
     (['-p', 'boat.mass'], 'boat.mass'),
     (['-p', 'sea.depht:=3.0'], 'sea.depht: no such parameter, did you mean sea.depth?'),
     (['-p', 'sea.waves:=[0.1, 4, 0, 0]'], 'write all numbers of a list with a decimal point'),
+    (['-p', 'hull.shape:=mesh', '-p', 'hull.mesh:=5'],
+     'hull.mesh: expected the path of a file, got 5'),
     (['-p', 'sea.depht:=[]'], 'sea.depht: no such parameter, did you mean sea.depth?'),
     (['--no-such-option'], '--no-such-option')]
 
@@ -160,8 +162,10 @@ def test_a_heavier_boat_lies_deeper(probe):
     ({'boat.mass': 'heavy'}, "got 'heavy'"),
     ({'boat.inertia': [1.0, 1.0, 9.0]}, 'no body has that inertia'),
     ({'sea.waves': [0.1, 4.0, 0.0]}, 'four numbers a row'),
-    ({'rate': 50.0}, 'read-only'),
-    ({'integrator': 'rk4'}, 'read-only'),
+    ({'rate': 50.0}, 'rate: cannot change while the node runs; start it again with the new value'),
+    ({'integrator': 'rk4'}, 'integrator: cannot change while the node runs; start it again'),
+    ({'hull.size': None}, 'hull.size: cannot change'),
+    ({'rate': 'fast'}, 'rate: cannot change'),
     ({'no.such': 1.0}, 'no.such: no such parameter'),
     ({'probes.floatiness': 2.0}, 'probes.positions: expected'),
     ({'use_sim_time': True}, 'use_sim_time: cannot change'),
@@ -247,16 +251,22 @@ def test_five_hundred_queued_sets_drop_no_step(probe, name, value):
 
 
 def test_what_it_dumps_can_be_loaded_while_it_runs_and_drops_no_step(probe):
-    names = [name for name in sorted(probe.list_parameters()) if name in PARAMETERS
-             and not PARAMETERS[name].read_only]
+    # With those that cannot change, and those of every node.
+    names = sorted(probe.list_parameters())
+    assert {'rate', 'world_frame', 'hull.probes', 'use_sim_time'} < set(names)
     before, steps = probe.get_parameters(names), dropped(probe)
     results = probe.set_parameters(
         {name: parameter_value_to_python(value) for name, value in before.items()
          if name != 'sea.waves'})
-    assert all(result.successful for result in results)
+    assert not [result.reason for result in results if not result.successful]
     assert probe.get_parameters(names) == before and dropped(probe) == steps
+    # Some in one set with one that changes.
+    assert probe.set_atomically({'rate': 100, 'boat.mass': 2100.0, 'integrator': 'leapfrog'}
+                                ).successful
+    assert probe.get_parameters(['boat.mass'])['boat.mass'].double_value == 2100.0
     # Given now, and taken back for the tests to come.
-    assert all(result.successful for result in probe.set_parameters(dict.fromkeys(names)))
+    live = [name for name in names if name in PARAMETERS and not PARAMETERS[name].read_only]
+    assert all(result.successful for result in probe.set_parameters(dict.fromkeys(live)))
 
 
 def test_the_boat_keeps_its_stamps_and_its_way_through_a_set(probe):
@@ -290,7 +300,7 @@ def test_probes_get_other_stiffness_weights_and_drag_while_they_float():
         result, = one.set_parameters({'probes.weights': [1.0, 1.0]})
         assert not result.successful and 'expected 4 numbers' in result.reason
         result, = one.set_parameters({'substeps': 3})
-        assert not result.successful and 'read-only' in result.reason
+        assert not result.successful and 'cannot change' in result.reason
 
 
 def test_what_is_dumped_starts_the_same_boat_again(probe, tmp_path):

@@ -40,10 +40,11 @@ def test_two_seas_are_said_once_after_a_while_and_one_again():
     assert watch.take(red, 'a', 22.0) == ''
 
 
-def watching(*boats):
+def watching(*boats, **environment):
     """Start the program."""
-    return subprocess.Popen([sys.executable, '-m', 'boat_buoyancy.ros.same_sea', *boats], cwd=ROOT,
-                            stderr=subprocess.PIPE, text=True, env=os.environ)
+    return subprocess.Popen(
+        [sys.executable, '-m', 'boat_buoyancy.ros.same_sea', *boats], cwd=ROOT, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **environment})
 
 
 def test_waves_that_only_one_of_two_boats_hears_are_warned_of():
@@ -60,13 +61,29 @@ def test_waves_that_only_one_of_two_boats_hears_are_warned_of():
             assert watch.wait(5.0) == 0
         finally:
             watch.kill()
-            watch.wait()
-            watch.stderr.close()
+            watch.communicate()
 
 
 def test_names_that_are_none_are_one_line():
-    for words in ((), ('/red/boat_buoyancy',), ('red', 'blue')):
+    for words in ((), BOATS[:1], ('red', 'blue'), (*BOATS, BOATS[0]), ('--bogus', *BOATS)):
         watch = watching(*words)
         _, said = watch.communicate(timeout=10.0)
         assert watch.returncode == 2 and said.count('\n') == 1
-        assert said.startswith('same_sea: expected the full names of two nodes')
+        assert said.startswith('same_sea: expected the full names of two nodes or more, each once')
+
+
+def test_a_home_that_cannot_be_written_is_one_line(tmp_path):
+    (tmp_path / 'a_file').write_text('')
+    # A folder under a file cannot be made, by root neither.
+    watch = watching(*BOATS, ROS_LOG_DIR='', ROS_HOME='', HOME=str(tmp_path / 'a_file' / 'home'))
+    _, said = watch.communicate(timeout=10.0)
+    assert watch.returncode == 2 and said.count('\n') == 1
+    assert said.startswith('same_sea: ') and 'set ROS_LOG_DIR to a folder' in said
+
+
+def test_help_says_how_to_start_it():
+    for word in ('-h', '--help'):
+        watch = watching(word)
+        said, wrong = watch.communicate(timeout=10.0)
+        assert watch.returncode == 0 and wrong == ''
+        assert said.startswith('usage: same_sea /red/boat_buoyancy')

@@ -35,9 +35,10 @@ START = 7_000_000_000  # ns
 class Recorder:
     """Stands for a node and all its publishers; keeps copies of what sensors publish."""
 
-    def __init__(self, listeners=('imu', 'fix')):
+    def __init__(self, listeners=('imu', 'fix'), name='/boat_buoyancy'):
         """Let some topics be listened to."""
         self.listeners, self.rows = listeners, {'imu': [], 'fix': []}
+        self.get_fully_qualified_name = lambda: name
 
     def create_publisher(self, kind, topic, _):
         """Return a publisher that writes down the numbers of a message."""
@@ -55,9 +56,9 @@ def row_of(message):
     return [stamp, q.x, q.y, q.z, q.w, w.x, w.y, w.z, a.x, a.y, a.z]
 
 
-def record(values, periods, *, thrust=None, listeners=('imu', 'fix'), start=0):
+def record(values, periods, *, thrust=None, start=0, **node):
     """Return the rows of imu (n, 11) and fix (n, 4) over some periods, and the session."""
-    recorder = Recorder(listeners)
+    recorder = Recorder(**node)
     session = Session(load_scene({'thrust.timeout': 0.0, **values}), start)
     outputs = Outputs(recorder, session.scene, sensors_of(recorder, session.scene))
     outputs.publish(session)
@@ -188,6 +189,30 @@ def test_one_seed_is_one_noise_and_another_is_another():
     assert all(np.array_equal(a, b) for a, b in zip(one, same))
     assert not np.isclose(one[0][:, 5:8], other[0][:, 5:8]).any()
     assert not np.isclose(one[1][:, 1:], other[1][:, 1:], rtol=1e-12).any()
+
+
+def test_boats_of_one_seed_have_noise_of_their_own_which_comes_again():
+    values = {'imu.gyroscope_noise': 0.1, 'fix.noise': [1.0, 1.0]}
+    red, blue, again = (record(values, 2000, name=f'/{name}/boat_buoyancy')
+                        for name in ('red', 'blue', 'red'))
+    for one, other, same, columns in zip(red[:2], blue[:2], again[:2], (slice(5, 8), slice(1, 3))):
+        assert np.array_equal(one, same)
+        # As alike as chance makes n numbers: one in 30 000 is beyond 4.5 / sqrt(n), of five.
+        for column in range(*columns.indices(11)):
+            assert abs(np.corrcoef(one[:, column], other[:, column])[0, 1]) < (
+                4.5 / math.sqrt(len(one)))
+
+
+def test_a_boat_that_is_shown_again_at_the_same_time_measures_nothing_new():
+    recorder, session = Recorder(), Session(load_scene({'fix.rate': 100.0}))
+    outputs = Outputs(recorder, session.scene, sensors_of(recorder, session.scene))
+    outputs.publish(session)
+    session.place(5.0, 0.0, 0.0)
+    outputs.publish(session)
+    session.step()
+    outputs.publish(session)
+    for rows in recorder.rows.values():
+        assert [row[0] for row in rows] == [0, 10_000_000]
 
 
 def test_each_sensor_has_its_rate_on_the_clock_of_the_stamps():

@@ -17,6 +17,7 @@
 from array import array
 import math
 import re
+import time
 
 from boat_buoyancy.physics.sea.waves import Sea
 from boat_buoyancy.ros.complaints import Refused
@@ -87,10 +88,22 @@ def test_a_layout_of_rows_is_taken(layout):
 
 
 @pytest.mark.parametrize('layout', [
-    ([4, 2],), ([2, 4], [4, 8]), ([2, 4], [8, 2]), ([2, 4], [8, 4], 1), ([2, 2, 2],), ([3, 4],)])
+    ([4, 2],), ([2, 4], [4, 8]), ([2, 4], [8, 2]), ([2, 4], [8, 4], 1), ([3, 4],)])
 def test_a_layout_of_anything_but_rows_is_refused(layout):
     with pytest.raises(Refused, match='expected rows of four one after the other, .* got sizes'):
         unpack_waves(laid_out(8, *layout))
+
+
+def test_a_layout_of_many_dimensions_is_refused_at_once_in_one_short_line():
+    # As many as fit into a message of the greatest length; their products of all sizes that
+    # follow would take more than 10 s.
+    raw = laid_out(8, [2, 2, 2] + [2] * 3500)
+    began = time.monotonic()
+    with pytest.raises(Refused, match='got 3503 dimensions$') as raised:
+        unpack_waves(raw)
+    assert time.monotonic() - began < 0.5 and len(str(raised.value)) < 200
+    with pytest.raises(Refused, match='got 3 dimensions$'):
+        unpack_waves(laid_out(8, [2, 2, 2]))
 
 
 def test_the_sea_in_force_can_be_sent_back_as_it_comes(probe, ask):
@@ -130,9 +143,15 @@ def test_waves_lift_the_boat_and_the_sea_in_force_is_shown(probe, ask):
     probe.until(lambda: min(m.pose.position.z for m in probe.poses) < level - 0.15)
 
 
-def test_waves_that_no_water_could_have_are_warned_of(boat, ask):
+def test_waves_that_no_water_could_have_are_warned_of(boat, probe, ask):
     ask([0.05, 0.5, 0.0, 0.0])
     boat.wait_for_log('The waves are steeper than water can be')
+    # More of them are not said each time.
+    for phase in (0.1, 0.2, 0.3, 0.4):
+        rows = [0.05, 0.5, 0.0, phase]
+        ask(rows)
+        probe.until(lambda: probe.waves[-1].data.tolist() == rows)
+    assert boat.log.count('steeper than water can be') == 1
 
 
 def test_an_ordinary_publisher_is_heard_without_a_warning(boat, probe, ask):

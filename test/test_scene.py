@@ -416,6 +416,16 @@ def test_wrong_parameters_get_one_line_that_says_what_is_expected(parameters, re
     assert refusal(parameters).startswith(reason)
 
 
+@pytest.mark.parametrize('parameters', [
+    {'sea.waves': ['x'] * 4000}, {'sea.current': [0.0] * 4000}, {'hull.probes': [2] * 4000},
+    {'probes.positions': [0.5] * 4000}, {'probes.positions': SQUARE, 'probes.weights': [1] * 4000},
+    {'thrusters.names': ['a'], 'thrusters.positions': [0.5] * 4000}, {'boat.mass': [1.0] * 4000},
+    {'thrusters.names': ['a'] * 4000}, {'integrator': 'rk4' * 4000}])
+def test_what_was_given_is_shown_by_how_it_begins_when_it_is_long(parameters):
+    said = refusal(parameters)
+    assert 'got ' in said and len(said) < 400
+
+
 # The simulation.
 
 def test_a_simulation_is_run_as_the_scene_asks():

@@ -165,12 +165,15 @@ def test_what_no_thruster_has_is_refused_in_one_line():
 @pytest.mark.parametrize('values, said', [
     ({'thrusters.names': ['left']}, 'thrusters.positions: expected 3 numbers, 3 for each of '
                                     'thrusters.names, got 0: []'),
-    ({'thrusters.positions': [0.0] * 3}, 'thrusters.positions: expected 0 numbers, 3 for each of '
-                                         'thrusters.names, got 3: [0.0, 0.0, 0.0]'),
+    *(({f'thrusters.{part}': [0.0] * 6}, f'thrusters.{part}: expected thrusters.names, one for '
+       'each thruster, got none: give thrusters.names')
+      for part in ('positions', 'directions', 'limits')),
     ({**ONE, 'thrusters.positions': [0.0] * 6}, 'expected 3 numbers, 3 for each'),
     ({**ONE, 'thrusters.limits': [0.0]}, 'thrusters.limits: expected 2 numbers, 2 for each'),
-    ({**ONE, 'thrusters.limits': [1.0, -1.0]}, 'thruster main: expected a least thrust of at '
-                                               'most the greatest, got 1 and -1 N'),
+    # It would push without a command.
+    *(({**ONE, 'thrusters.limits': limits}, 'thruster main: expected limits with 0 between them, '
+       f'which it gives without a command, got {limits[0]:g} and {limits[1]:g} N')
+      for limits in ([1.0, -1.0], [10.0, 100.0], [-100.0, -10.0])),
     ({**ONE, 'thrusters.directions': [0.0] * 3}, 'thruster main: expected a direction of some '
                                                  'length, got (0.0, 0.0, 0.0)')])
 def test_thrusters_that_do_not_fit_together_are_refused_in_one_line(values, said):

@@ -15,8 +15,18 @@
 """Checks of numbers given by a user: a ValueError says what, what was given, what is expected."""
 
 import math
+import reprlib
 
 import numpy as np
+
+_short = reprlib.Repr()
+_short.maxlist = _short.maxtuple = _short.maxarray = 12
+_short.maxstring = _short.maxother = _short.maxlong = 80
+
+
+def shown(value):
+    """Return what was given as a message shows it: a long list by how it begins."""
+    return _short.repr(value)
 
 
 def number(name, value, *, above=None, at_least=None, at_most=None):
@@ -28,7 +38,7 @@ def number(name, value, *, above=None, at_least=None, at_most=None):
         expected += f' of at least {at_least:g}'
     if at_most is not None:
         expected += f'{"" if above is None and at_least is None else " and"} at most {at_most:g}'
-    wrong = ValueError(f'{name}: expected {expected}, got {value!r}')
+    wrong = ValueError(f'{name}: expected {expected}, got {shown(value)}')
     if isinstance(value, (bool, str)):
         raise wrong
     try:
@@ -53,10 +63,11 @@ def vector(name, values, *lengths, above=None, at_least=None, at_most=None):
     except (TypeError, ValueError):
         items = values
     if not isinstance(items, list):
-        raise ValueError(f'{name}: expected a list of numbers, got {values!r}')
+        raise ValueError(f'{name}: expected a list of numbers, got {shown(values)}')
     if lengths and len(items) not in lengths:
         wanted = ' or '.join(str(length) for length in lengths)
-        raise ValueError(f'{name}: expected {wanted} numbers, got {len(items)}: {items!r}')
+        raise ValueError(f'{name}: expected {wanted} numbers, got {len(items)}: '
+                         f'{shown(items)}')
     result = np.array([number(f'{name}[{i}]', item, above=above, at_least=at_least,
                               at_most=at_most) for i, item in enumerate(items)], float)
     result.setflags(write=False)
@@ -66,5 +77,6 @@ def vector(name, values, *lengths, above=None, at_least=None, at_most=None):
 def count(name, value, *, at_least):
     """Return ``value`` as an int of at least ``at_least``."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < at_least:
-        raise ValueError(f'{name}: expected an integer of at least {at_least}, got {value!r}')
+        raise ValueError(f'{name}: expected an integer of at least {at_least}, '
+                         f'got {shown(value)}')
     return int(value)

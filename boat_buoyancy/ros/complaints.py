@@ -84,15 +84,21 @@ class Complaints:
         return sum(self.counts.values())
 
     def guarded(self, topic, act):
-        """Return a callback that never raises: what ``act`` (message) refuses is counted."""
+        """
+        Return a callback that never raises: what ``act`` (message) refuses is counted.
+
+        It returns whether a message was acted on.
+        """
         def callback(message):
             try:
                 act(message)
+                return True
             except Refused as refused:
                 self.add(topic, refused, time.monotonic())
             except Exception as error:  # whatever a message contains, the node stays
                 self.add(topic, Refused('not understood', f'{topic}: {error!r}'),
                          time.monotonic())
+            return False
         return callback
 
     def add(self, topic, refused, now):

@@ -12,71 +12,95 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What other nodes do on the topics of ours that cannot be meant: rival thrust, other types."""
+"""What other nodes do on the topics of ours that cannot be meant: rivals, other types."""
 
 from collections import deque
+import inspect
+import time
 
 
 class Rivals:
     """
-    Tells from the wrenches whether more than one publisher pushes the boat.
+    Tells from the numbers of messages whether more than one publisher sends on a topic.
 
-    Of two that send, each takes back what the other has just asked for: there and back again.
-    The graph alone does not tell, as it shows those that are silent, and for a while the dead.
-    Messages do not say who sent them.  Public: ``possible``, whether the graph shows more than
-    one publisher; until it does nothing is looked at.
+    A publisher counts its messages, and no message says whose it is: a number that is not above
+    the last one is of another count.  What the messages ask for does not matter: one controller
+    may go to and fro, and two that agree are two.  The graph alone does not tell, as it shows
+    those that are silent, and for a while the dead.
     """
 
-    WINDOW, RETURNS = 5.0, 4  # s, and how often in it
-    JUMP = 0.1  # of the wrench; less is how a controller moves about
+    # s; s apart; and how many.  Of a hand-over, in which both send for a moment, there are fewer.
+    WINDOW, APART, RETURNS = 20.0, 0.5, 4
 
     def __init__(self):
         """Have heard nothing."""
-        self.possible = False
-        self._last = self._before = (0.0,) * 6
-        self._returns = deque(maxlen=self.RETURNS)
+        self._last, self._returns = 0, deque(maxlen=self.RETURNS)
 
-    def heard(self, wrench, now):
-        """Take a wrench, six numbers, that came at ``now`` s."""
-        if not self.possible:
-            return
-        there, back = _distance(wrench, self._last), _distance(wrench, self._before)
-        size = max(map(abs, (*wrench, *self._last)))
-        if there > self.JUMP * size and back < 0.5 * there:
+    def heard(self, number, now):
+        """Take the number of a message that came at ``now`` s."""
+        # The first of a publisher, number 1, is of one that comes, perhaps in place of another.
+        if 1 < number <= self._last and not (
+                self._returns and now - self._returns[-1] < self.APART):
             self._returns.append(now)
-        self._before, self._last = self._last, wrench
+        self._last = number
 
     def fight(self, now):
         """Return whether two or more have sent of late."""
-        return (self.possible and len(self._returns) == self.RETURNS
-                and self._returns[0] > now - self.WINDOW)
+        if len(self._returns) < self.RETURNS:
+            return False
+        first, last = self._returns[0], self._returns[-1]
+        # Over when there was none for longer than it took to notice.
+        return first > now - self.WINDOW and now - last < last - first + 1.0
 
 
 class Neighbours:
     """
     A look at the graph around a node, once in a while.
 
-    Main arguments: ``node``; ``rivals``, the `Rivals` for `thrust`.
+    Main arguments: ``node``.
     """
 
-    def __init__(self, node, rivals):
-        """Keep both."""
-        self._node, self._rivals = node, rivals
+    def __init__(self, node):
+        """Watch no topic."""
+        self._node, self._rivals = node, {}
+
+    def watched(self, topic, callback):
+        """
+        Return a callback for a topic whose publishers are watched.
+
+        ``callback`` (message) returns whether it acted on it: who sends what is refused does not
+        push the boat.  Middleware that does not number messages (Cyclone DDS) tells no rivals.
+        """
+        rivals = self._rivals[topic] = Rivals()
+
+        def numbered(*given):
+            # EventsExecutor of Jazzy hands both over as one.
+            message, information = given[0] if len(given) == 1 else given
+            number = information['publication_sequence_number']
+            if callback(message) and number is not None:
+                rivals.heard(number, time.monotonic())
+        # By this rclpy knows that it takes both.
+        numbered.__signature__ = inspect.signature(lambda message, information: None)
+        return numbered
 
     def look(self, now):
         """Return {what is wrong in some words: the sentence for it}; ``now`` s, steady clock."""
         return {**self._fights(now), **self._other_types(), **self._twins()}
 
     def _fights(self, now):
-        topic = self._node.resolve_topic_name('thrust')
-        publishers = self._node.get_publishers_info_by_topic(topic)
-        self._rivals.possible = len(publishers) > 1
-        if not self._rivals.fight(now):
-            return {}
-        names = ', '.join(sorted(map(_name, publishers)))
-        return {'several nodes send thrust':
-                f'{len(publishers)} publishers send on {topic} ({names}): the latest wrench acts, '
-                'so they fight over the boat; let only one of them send'}
+        found = {}
+        for name, rivals in self._rivals.items():
+            if not rivals.fight(now):
+                continue
+            topic = self._node.resolve_topic_name(name)
+            publishers = self._node.get_publishers_info_by_topic(topic)
+            # Else one that is started again and again.
+            if len(publishers) > 1:
+                found[f'several nodes send {name}'] = (
+                    f'more than one of {len(publishers)} publishers sends on {topic} '
+                    f'({", ".join(sorted(map(_name, publishers)))}): the latest message acts, so '
+                    'they fight over the boat; let only one of them send')
+        return found
 
     def _other_types(self):
         node, found = self._node, {}
@@ -104,10 +128,6 @@ class Neighbours:
                 'services and publish its topics. Give one a namespace with '
                 '--ros-args -r __ns:=/other (a node that was killed stays in the graph for '
                 'about 20 s)'}
-
-
-def _distance(one, other):
-    return max(abs(a - b) for a, b in zip(one, other))
 
 
 def _name(info):

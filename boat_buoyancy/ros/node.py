@@ -65,7 +65,7 @@ class BoatNode(ParameterNode):
         with startup.warnings_said(self.get_logger().warning):
             if given.get('publish_tf') is True:
                 given.setdefault('frame_prefix', transforms.prefix(self.get_namespace()))
-            if 'hull.mesh' in given:
+            if isinstance(given.get('hull.mesh'), str):
                 folder = startup.folder_of(sys.argv, 'hull.mesh', given['hull.mesh'])
                 given['hull.mesh'] = os.path.join(folder, given['hull.mesh'])
             scene = scene_from_values(given)
@@ -81,6 +81,7 @@ class BoatNode(ParameterNode):
         self._paused = False
         # rclpy wants one severity for each line of code that it is called from.
         self._news = Throttle(lambda sentence: self.get_logger().info(sentence))
+        self._bad_news = Throttle(lambda sentence: self.get_logger().warning(sentence))
         now = time.monotonic()
         self._reports = Reports(self, self.session, now)
         self._reports.loaded()
@@ -94,10 +95,11 @@ class BoatNode(ParameterNode):
         self._waves_output = WavesOutput(self)
         self._waves_input = WavesInput(self, self._reports.complaints, self._on_waves)
         guarded = self._reports.complaints.guarded
+        command = self._reports.command
         self.create_subscription(
-            WrenchStamped, 'thrust', guarded('thrust', self._on_thrust), qos.THRUST)
+            WrenchStamped, 'thrust', command('thrust', self._on_thrust), qos.THRUST)
         for thruster in scene.thrusters:
-            ThrusterInput(self, thruster.name, self.session, guarded)
+            ThrusterInput(self, thruster, self.session, command)
         self.create_subscription(
             Vector3Stamped, 'wind', guarded('wind', self._on_wind), qos.WIND)
         self.create_subscription(PoseWithCovarianceStamped, 'initialpose',
@@ -177,7 +179,6 @@ class BoatNode(ParameterNode):
     def _on_thrust(self, message):
         wrench, in_world = read_wrench(message, self.session.scene)
         self.session.thrust.hold(wrench, in_world, self.session.age)
-        self._reports.rivals.heard(wrench, time.monotonic())
 
     def _on_waves(self, rows):
         if self.session.set_waves(rows):
@@ -187,7 +188,7 @@ class BoatNode(ParameterNode):
             self._news.say('waves', f'waves: {len(self.session.sea.waves)} in force{panels}',
                            time.monotonic())
             for sentence in sea_warnings(self.session.sea):
-                self.get_logger().warning(sentence)
+                self._bad_news.say('waves', sentence, time.monotonic())
 
     def _on_wind(self, message):
         x, y = wind = read_wind(message, self.session.scene)
@@ -202,7 +203,7 @@ class BoatNode(ParameterNode):
             raise Refused('stopped', 'initialpose: the motion was stopped by a fault; expected a '
                           'call of ~/reset first')
         self.session.place(x, y, yaw)
-        self._news.say('place', f'boat put at x {x:.2f} y {y:.2f} m, floating at its draft',
+        self._news.say('place', f'boat put at x {x:.2f} y {y:.2f} m, as it lies at rest',
                        time.monotonic())
         self._show_paused()
 

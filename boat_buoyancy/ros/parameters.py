@@ -28,6 +28,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from .session import WAVES
+from ..physics.checks import shown
 from ..physics.scene.parameter_file import ROS_OWN
 from ..physics.scene.parameters import check_names, PARAMETERS, WAVE_KINDS
 from ..physics.scene.scene import scene_from_values
@@ -37,6 +38,8 @@ TYPES = {
     'string': Parameter.Type.STRING, 'path': Parameter.Type.STRING,
     'float_array': Parameter.Type.DOUBLE_ARRAY, 'int_array': Parameter.Type.INTEGER_ARRAY,
     'string_array': Parameter.Type.STRING_ARRAY}
+# Always declared and always live.
+HARMLESS = 'thrust.timeout'
 
 
 def is_ros_own(name):
@@ -65,8 +68,8 @@ def typed(parameter):
         except ValueError:
             return value
         raise ValueError(f'{parameter.name}: expected one flat list of numbers, all with a '
-                         f'decimal point or all without, got the text {value!r}; type '
-                         f'{str(numbers)!r}')
+                         f'decimal point or all without, got the text {shown(value)}; type '
+                         f'{shown(str(numbers))}')
     return value
 
 
@@ -168,7 +171,7 @@ class LiveParameters:
 
     def __init__(self, node, given, scene, apply):
         """Take part in every set from now on."""
-        self._at_start, self._given = dict(given), dict(given)
+        self._node, self._at_start, self._given = node, dict(given), dict(given)
         self._scene, self._apply = scene, apply
         self._proposal = self._refusal = None
         node.add_pre_set_parameters_callback(self._propose)
@@ -178,7 +181,13 @@ class LiveParameters:
     def _propose(self, requested):
         """Work out the scene that a set asks for, and return everything that changes with it."""
         self._proposal = self._refusal = None
+        # rclpy looks before `_judge` does, and at every name: whatever there is nothing to set
+        # of, this can be set, and changes nothing.
+        harmless = [ros_parameter(HARMLESS, self._scene.values[HARMLESS])]
         try:
+            requested = [one for one in requested if not self._is_as_fixed(one)]
+            if not requested:
+                return harmless
             given = self._merged(requested)
             scene = scene_from_values(given, self._scene)
             names = {parameter.name for parameter in requested}
@@ -186,8 +195,7 @@ class LiveParameters:
             self._proposal = given, scene, plan, frozenset(names)
         except Exception as error:  # a raise here would be the end of the node
             self._refusal = ' '.join(str(error).split()) or repr(error)
-            # rclpy looks at types and ranges first: give it nothing to add to our reason.
-            return [self._in_force(parameter) for parameter in requested]
+            return harmless
         # What was derived follows; how the boat would have started does not matter any more.
         names |= {name for name, value in scene.values.items()
                   if value != self._scene.values.get(name) and not PARAMETERS[name].read_only}
@@ -220,9 +228,11 @@ class LiveParameters:
             given.update((name, self._at_start.get(name)) for name in WAVES.difference(names))
         return {name: value for name, value in given.items() if value is not None}
 
-    def _in_force(self, parameter):
-        value = self._scene.values.get(parameter.name)
-        return parameter if value is None else ros_parameter(parameter.name, value)
+    def _is_as_fixed(self, parameter):
+        """Return True for a value that cannot change and is in force, as of the node's dump."""
+        name = parameter.name
+        fixed = is_ros_own(name) or name in self._scene.values and PARAMETERS[name].read_only
+        return fixed and plain(parameter) == plain(self._node.get_parameter(name))
 
     def _judge(self, _):
         if self._refusal:

@@ -23,7 +23,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from . import figures, network, qos
 from .complaints import Complaints, Throttle
 from .messages import Frame, set_stamp
-from .neighbours import Neighbours, Rivals
+from .neighbours import Neighbours
 
 DIAGNOSTICS_PERIOD = 1.0  # s
 # What steps are lost to, and what to do.
@@ -42,14 +42,13 @@ class Reports:
     The reports of a node.
 
     Main arguments: ``node``; ``session``; ``now`` s on the steady clock.  Public: ``complaints``,
-    where refused messages are counted and said; ``rivals``, who hear those of thrust.
+    where refused messages are counted and said.
     """
 
     def __init__(self, node, session, now):
         """Create the publisher and begin to count."""
         self._node, self._session, self._log = node, session, node.get_logger()
-        self.complaints, self.rivals = Complaints(self._log.warning), Rivals()
-        self._neighbours = Neighbours(node, self.rivals)
+        self.complaints, self._neighbours = Complaints(self._log.warning), Neighbours(node)
         self._refused, self._wrong_before = 0, set()
         rate = session.simulation.rate
         self._meter, self._status_meter = figures.Meter(rate, now), figures.Meter(rate, now)
@@ -63,6 +62,10 @@ class Reports:
         self._next_status = now + self._status_period
         self._drops_said, self._unsaid_drops = None, 0
         self._said, self._stepping = set(), ()
+
+    def command(self, topic, act):
+        """Return a callback as `Complaints` do, for a topic that only one may publish on."""
+        return self._neighbours.watched(topic, self.complaints.guarded(topic, act))
 
     def loaded(self):
         """Say what was loaded and what the boat will do, and what is wrong with it."""

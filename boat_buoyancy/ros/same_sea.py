@@ -32,6 +32,9 @@ from . import network, qos, startup
 from .ending import told_to_end
 from .figures import SEA
 
+PROGRAM = 'same_sea'
+USAGE = (f'usage: {PROGRAM} /red/boat_buoyancy /blue/boat_buoyancy ... [--ros-args ...]\n\n'
+         'Warns when boats, given by the full names of their nodes, are not in one sea.')
 CURE = ('whoever sends waves has to wait for all of them (ros2 topic pub --once -w 2), and to one '
         'that came late those of another are to be sent (-r wave_parameters:=/red/waves)')
 
@@ -66,33 +69,53 @@ class SameSea:
         return f'the boats are not in one sea ({seas}): {CURE}'
 
 
+def named(arguments):
+    """Return the boats that the words of a command line name; ValueError when they are none."""
+    boats = remove_ros_args(arguments)[1:]
+    if len({*boats}) < max(2, len(boats)) or not all(boat.startswith('/') for boat in boats):
+        raise ValueError('expected the full names of two nodes or more, each once, as '
+                         '/red/boat_buoyancy /blue/boat_buoyancy, '
+                         f'got {" ".join(boats) or "none"}')
+    return boats
+
+
 def main():
     """Watch until a signal and return the exit status."""
-    boats = remove_ros_args(sys.argv)[1:]
-    if len(boats) < 2 or not all(boat.startswith('/') for boat in boats):
-        print('same_sea: expected the full names of two nodes or more, as /red/boat_buoyancy '
-              f'/blue/boat_buoyancy, got {" ".join(boats) or "none"}', file=sys.stderr)
-        return 2
     with told_to_end() as told:
-        network.never_wait()
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-        node, watch = rclpy.create_node('same_sea'), SameSea(boats)
+        return _run(told)
 
-        def take(message):
-            for status in message.status:
-                sea = next((item.value for item in status.values if item.key == SEA), None)
-                if news := watch.take(status.hardware_id, sea, time.monotonic()):
-                    node.get_logger().warning(news)
-        node.create_subscription(DiagnosticArray, '/diagnostics', take, qos.OUTPUT)
-        executor = startup.executor()
-        executor.add_node(node)
-        try:
-            while not told.is_set():
-                executor.spin_once(0.1)
-        finally:
-            executor.shutdown()
-            node.destroy_node()
-            rclpy.try_shutdown()
+
+def _run(told):
+    """Watch until an event is set and return the exit status."""
+    try:
+        if {'-h', '--help'} & {*remove_ros_args(sys.argv)}:
+            print(USAGE)
+            return 0
+        watch = SameSea(named(sys.argv))
+        network.never_wait()
+        with startup.quiet_stderr():
+            rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        node = rclpy.create_node(PROGRAM)
+    except Exception as error:
+        rclpy.try_shutdown()
+        print(startup.one_line(error, PROGRAM), file=sys.stderr)
+        return 2
+
+    def take(message):
+        for status in message.status:
+            sea = next((item.value for item in status.values if item.key == SEA), None)
+            if news := watch.take(status.hardware_id, sea, time.monotonic()):
+                node.get_logger().warning(news)
+    node.create_subscription(DiagnosticArray, '/diagnostics', take, qos.OUTPUT)
+    executor = startup.executor()
+    executor.add_node(node)
+    try:
+        while not told.is_set():
+            executor.spin_once(0.1)
+    finally:
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.try_shutdown()
     return 0
 
 

@@ -20,6 +20,7 @@ listens.  White noise is added on request; the covariances say how much.
 """
 
 from fractions import Fraction
+import zlib
 
 import numpy as np
 from sensor_msgs.msg import Imu, NavSatFix, NavSatStatus
@@ -37,8 +38,8 @@ class Sensor:
     A topic with a rate of its own: what `ImuSensor` and `FixSensor` share.
 
     Main arguments: ``node``; ``scene``; ``kind`` of message; ``topic``, also the group of its
-    parameters; ``stream``, what makes its noise another than that of other sensors.  Public:
-    ``publisher``.
+    parameters; ``stream``, what makes its noise another than that of other sensors; the
+    node's name and namespace make it another than that of other boats.  Public: ``publisher``.
     """
 
     def __init__(self, node, scene, kind, topic, stream):
@@ -49,18 +50,23 @@ class Sensor:
         # Its axes are the boat's: no transform is needed to use what it measures.
         self._message.header.frame_id = scene.body_frame
         self._place = values[f'{topic}.position']
-        self._random = np.random.default_rng([values[f'{topic}.seed'], stream])
+        boat = zlib.crc32(node.get_fully_qualified_name().encode())
+        self._random = np.random.default_rng([values[f'{topic}.seed'], stream, boat])
         rate = Fraction(values[f'{topic}.rate'])
         self._always = rate >= Fraction(scene.rate)
         self._ticks, self._span = rate.numerator, rate.denominator * NANOSECONDS
         self._period = int(NANOSECONDS / scene.rate)
+        self._published = None
 
     def is_due(self, stamp):
         """
         Return True when a multiple of 1/rate lies in the period that ends at ``stamp`` ns.
 
-        On the clock of the stamps: sensors of several boats measure together.
+        On the clock of the stamps: sensors of several boats measure together.  A boat that is
+        paused, and shown again where it was put, measures nothing new.
         """
+        if stamp == self._published:
+            return False
         if self._always:
             return True
         # Stamps are cut to whole ns: a multiple of 1/rate may be less than 1 ns ahead.
@@ -69,6 +75,7 @@ class Sensor:
 
     def publish(self, frame):
         """Send what is felt in a `Frame`."""
+        self._published = frame.stamp
         set_stamp(self._message.header.stamp, frame.stamp)
         self._fill(self._message, frame)
         self.publisher.publish(self._message)

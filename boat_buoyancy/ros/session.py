@@ -115,7 +115,7 @@ class Session:
         self.fault = self.wrench = None
 
     def place(self, x, y, yaw):
-        """Put the boat at rest at x, y m, heading yaw rad, level and floating at its draft."""
+        """Put the boat at x, y m, heading yaw rad, as it lies at rest, with list and trim."""
         self.simulation.state = rest_state(self.scene.boat, yaw=yaw, x=x, y=y)
 
     def set_waves(self, rows):

@@ -140,12 +140,12 @@ def quiet_stderr():
         os.close(nowhere)
 
 
-def one_line(error):
-    """Return an exception as one line for standard error."""
+def one_line(error, program=PROGRAM):
+    """Return an exception as one line of a program for standard error."""
     # rcl adds where in its source it noticed.
     text = ' '.join(str(error).split()).partition(', at /')[0] or repr(error)
     if 'failed to initialize logging' in text:
         text += '; set ROS_LOG_DIR to a folder that can be written'
     if 'Sequence should be of same type' in text:
         text += '; write all numbers of a list with a decimal point or all without'
-    return f'{PROGRAM}: {text}'
+    return f'{program}: {text}'

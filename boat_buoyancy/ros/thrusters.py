@@ -25,27 +25,27 @@ class ThrusterInput:
     """
     The subscriptions `thrusters/<name>/thrust` and `thrusters/<name>/pos`.
 
-    Main arguments: ``node``; ``name`` of the thruster; ``session``, whose thruster it is;
-    ``guarded`` as of `Complaints`.
+    Main arguments: ``node``; ``thruster`` a `Thruster`; ``session``, whose thruster it is;
+    ``command`` as of `Reports`.
     """
 
-    def __init__(self, node, name, session, guarded):
+    def __init__(self, node, thruster, session, command):
         """Listen."""
-        self._name, self._session = name, session
-        self._topic = f'thrusters/{name}'
+        self._thruster, self._session = thruster, session
+        self._topic = f'thrusters/{thruster.name}'
         for part, act in (('thrust', self._on_thrust), ('pos', self._on_angle)):
             topic = f'{self._topic}/{part}'
-            node.create_subscription(Float64, topic, guarded(topic, act), qos.THRUST)
+            node.create_subscription(Float64, topic, command(topic, act), qos.THRUST)
 
     def _on_thrust(self, message):
         thrust, topic = message.data, f'{self._topic}/thrust'
         check_finite(topic, [thrust])
         limit = MAX_THRUST * self._session.scene.boat.weight
-        if abs(thrust) > limit:
+        if abs(self._thruster.limited(thrust)) > limit:
             raise Refused('too large', f'{topic}: expected at most {limit:.3g} N, '
                           f'{MAX_THRUST:g} times the weight of this boat, got {thrust:g}')
-        self._session.thrusters.hold(self._name, thrust, self._session.age)
+        self._session.thrusters.hold(self._thruster.name, thrust, self._session.age)
 
     def _on_angle(self, message):
         check_finite(f'{self._topic}/pos', [message.data])
-        self._session.thrusters.angles[self._name] = message.data
+        self._session.thrusters.angles[self._thruster.name] = message.data

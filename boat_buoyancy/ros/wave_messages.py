@@ -55,15 +55,18 @@ def unpack_waves(raw):
 
 def check_layout(layout, count):
     """Raise `Refused` unless a layout, if there is one, says rows of four one after the other."""
+    expected = (f'{TOPIC}: expected rows of four one after the other, with no layout or sizes '
+                f'[{count // 4}, 4], strides [{count}, 4] and offset 0, got ')
+    if len(layout.dim) > 2:
+        raise Refused('other layout', f'{expected}{len(layout.dim)} dimensions')
     sizes = [dim.size for dim in layout.dim]
     strides = [dim.stride for dim in layout.dim]
     # Strides may be left out. Of a dimension, its own size times those that follow.
     whole = [math.prod(sizes[i:]) for i in range(len(sizes))]
     if layout.data_offset or sizes not in ([], [count], [count // 4, 4]) or any(
             stride not in (0, right) for stride, right in zip(strides, whole)):
-        raise Refused('other layout', f'{TOPIC}: expected rows of four one after the other, with '
-                      f'no layout or sizes [{count // 4}, 4], strides [{count}, 4] and offset 0, '
-                      f'got sizes {sizes}, strides {strides} and offset {layout.data_offset}')
+        raise Refused('other layout', f'{expected}sizes {sizes}, strides {strides} and offset '
+                      f'{layout.data_offset}')
 
 
 def read_waves(values):

@@ -34,8 +34,8 @@ class Thruster:
 
     Main arguments: ``name``; ``position`` (3) m in the body frame, where it pushes.
     Other arguments: ``direction`` (3) in body axes, of any length but 0, where it pushes the boat
-    at an angle of 0; ``least`` and ``greatest`` N that it gives; ``lag`` s, the time constant of
-    its thrust.  ValueError says what is wrong.
+    at an angle of 0; ``least`` and ``greatest`` N that it gives, 0 between them; ``lag`` s, the
+    time constant of its thrust.  ValueError says what is wrong.
     """
 
     name: str
@@ -53,12 +53,16 @@ class Thruster:
         length = math.hypot(*direction)
         if length == 0.0:
             raise ValueError(f'{about}: expected a direction of some length, got {direction}')
-        if not self.least <= self.greatest:
-            raise ValueError(f'{about}: expected a least thrust of at most the greatest, '
-                             f'got {self.least:g} and {self.greatest:g} N')
+        if not self.least <= 0.0 <= self.greatest:
+            raise ValueError(f'{about}: expected limits with 0 between them, which it gives '
+                             f'without a command, got {self.least:g} and {self.greatest:g} N')
         checks.number(f'{about}: lag', self.lag, at_least=0.0)
         object.__setattr__(self, 'position', position)
         object.__setattr__(self, 'direction', scale(1.0 / length, direction))
+
+    def limited(self, command: float) -> float:
+        """Return a command in N cut to the limits."""
+        return min(max(command, self.least), self.greatest)
 
     def driven(self, force: float, command: float, duration: float) -> tuple[float, float]:
         """
@@ -68,7 +72,7 @@ class Thruster:
         lag T' = command - T: T+ = command + (T - command) e, e = exp(-duration / lag), and the
         mean is command + (T - command) (1 - e) lag / duration.
         """
-        command = min(max(command, self.least), self.greatest)
+        command = self.limited(command)
         if self.lag == 0.0:
             return command, command
         gone = -math.expm1(-duration / self.lag)

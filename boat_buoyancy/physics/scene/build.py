@@ -30,6 +30,7 @@ from ..boat.hull import probe_hull
 from ..boat.mesh import read_mesh
 from ..boat.shapes import box_shaped, mesh_shaped
 from ..boat.state import body_frame, center_of_mass_state
+from ..checks import shown
 from ..forces.thrusters import Thruster
 from ..hydrostatics import rest
 from ..hydrostatics.natural_modes import equilibrium_stiffness
@@ -183,7 +184,10 @@ def _rows_of_thrusters(in_force, part, width, otherwise):
     """Return a parameter of thrusters as rows, one for each; ``otherwise`` where left out."""
     count = len(in_force['thrusters.names'] or ())
     flat = in_force[f'thrusters.{part}'] or otherwise * count
+    if flat and not count:
+        raise ValueError(f'thrusters.{part}: expected thrusters.names, one for each thruster, got '
+                         'none: give thrusters.names')
     if len(flat) != width * count:
         raise ValueError(f'thrusters.{part}: expected {width * count} numbers, {width} for each '
-                         f'of thrusters.names, got {len(flat)}: {list(flat)}')
+                         f'of thrusters.names, got {len(flat)}: {shown(list(flat))}')
     return zip(*[iter(flat)] * width)

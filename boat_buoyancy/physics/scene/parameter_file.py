@@ -145,8 +145,10 @@ def _list(name, node):
     values = [_value(name, item) for item in node.value]
     kinds = {type(value) for value in values}
     if len(kinds) > 1:
+        cure = kinds == {int, float} and (_written([float(value) for value in values])
+                                          if len(values) <= 12 else 'all with a decimal point')
         raise _refusal(f'{name}: expected values of one type, as ROS reads no other lists', node,
-                       kinds == {int, float} and _written([float(value) for value in values]))
+                       cure)
     return values
 
 

@@ -45,11 +45,11 @@ def checked(name, value):
         return _integer(name, value, parameter)
     if parameter.kind == 'bool':
         if not isinstance(value, bool):
-            raise ValueError(f'{name}: expected true or false, got {value!r}')
+            raise ValueError(f'{name}: expected true or false, got {checks.shown(value)}')
         return value
     if parameter.kind == 'path':
         if not isinstance(value, str) or not value.strip():
-            raise ValueError(f'{name}: expected the path of a file, got {value!r}')
+            raise ValueError(f'{name}: expected the path of a file, got {checks.shown(value)}')
         return value
     if parameter.kind == 'string':
         return _string(name, value, parameter)
@@ -72,7 +72,7 @@ def _numbers(name, value):
         items = [item for row in items for item in row]
     if not isinstance(items, (list, tuple)) or any(
             isinstance(item, (bool, str, list, tuple, dict)) for item in items):
-        raise ValueError(f'{name}: expected {form}, got {value!r}')
+        raise ValueError(f'{name}: expected {form}, got {checks.shown(value)}')
     return items
 
 
@@ -84,7 +84,7 @@ def _integer(name, value, parameter):
         result = None
     if result is None or result > parameter.at_most:
         raise ValueError(f'{name}: expected an integer of {parameter.at_least} to '
-                         f'{parameter.at_most}, got {value!r}')
+                         f'{parameter.at_most}, got {checks.shown(value)}')
     return result
 
 
@@ -92,7 +92,8 @@ def _integers(name, value, parameter):
     """Return a tuple of integers within the range of their parameter."""
     items = value.tolist() if hasattr(value, 'tolist') else value
     if not isinstance(items, (list, tuple)) or len(items) not in parameter.lengths:
-        raise ValueError(f'{name}: expected {parameter.lengths[0]} integers, got {items!r}')
+        raise ValueError(f'{name}: expected {parameter.lengths[0]} integers, '
+                         f'got {checks.shown(items)}')
     return tuple(_integer(f'{name}[{i}]', item, parameter) for i, item in enumerate(items))
 
 
@@ -101,13 +102,13 @@ def _string(name, value, parameter):
     if parameter.choices:
         if value not in parameter.choices:
             raise ValueError(f'{name}: expected one of {", ".join(parameter.choices)}, '
-                             f'got {value!r}')
+                             f'got {checks.shown(value)}')
     elif value == '' == parameter.default:
         pass
     elif (not isinstance(value, str) or not value or value.startswith('/')
             or any(c.isspace() for c in value)):
         raise ValueError(f'{name}: expected a frame id without spaces or leading slash, '
-                         f'got {value!r}')
+                         f'got {checks.shown(value)}')
     return value
 
 
@@ -118,5 +119,5 @@ def _names(name, value):
             or not all(isinstance(item, str) and re.fullmatch('[A-Za-z][A-Za-z0-9_]*', item)
                        for item in items)):
         raise ValueError(f'{name}: expected different names of letters, digits and _ that begin '
-                         f'with a letter, got {value!r}')
+                         f'with a letter, got {checks.shown(value)}')
     return tuple(items)

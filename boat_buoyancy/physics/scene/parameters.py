@@ -291,8 +291,9 @@ def _table():
                   'Standard deviation of white noise of the attitude about each axis. Higher is '
                   'noisier.', at_least=0.0, at_most=1.0, **fixed),
         Parameter('imu.seed', 'int', 1, '-',
-                  'Chooses the noise: same seed, same numbers. Another is other noise of the same '
-                  'kind.', at_least=0, at_most=2 ** 63 - 1, **fixed),
+                  'Chooses the noise: same seed, same numbers from a node of the same name and '
+                  'namespace; boats beside it have noise of their own. Another is other noise of '
+                  'the same kind.', at_least=0, at_most=2 ** 63 - 1, **fixed),
         Parameter('fix.rate', 'float', 10.0, 'Hz',
                   'Messages of the satellite receiver per second, at most one a period; 0 = no '
                   'receiver. Higher follows quick motion.', at_least=0.0, at_most=1e5, **fixed),
@@ -312,8 +313,9 @@ def _table():
                   'Standard deviation of white noise, horizontal on each axis and vertical. '
                   'Higher is noisier.', at_least=0.0, at_most=1e6, lengths=(2,), **fixed),
         Parameter('fix.seed', 'int', 1, '-',
-                  'Chooses the noise: same seed, same numbers. Another is other noise of the same '
-                  'kind.', at_least=0, at_most=2 ** 63 - 1, **fixed),
+                  'Chooses the noise: same seed, same numbers from a node of the same name and '
+                  'namespace; boats beside it have noise of their own. Another is other noise of '
+                  'the same kind.', at_least=0, at_most=2 ** 63 - 1, **fixed),
     )
 
 

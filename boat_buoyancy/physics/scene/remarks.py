@@ -18,6 +18,7 @@ import numpy as np
 
 from . import parameters
 from .wave_sampling import sampling_warnings
+from ..checks import shown
 from ..hydrostatics.warnings import dry_thruster_warnings, parting_warnings
 
 # Somewhat more than 2 pi, so that 6.2832 is one.
@@ -48,12 +49,12 @@ def check_together(given, in_force):
     positions = given.get('probes.positions')
     if positions is not None and (not positions or len(positions) % 3):
         raise ValueError('probes.positions: expected x, y, z of every probe, at least one '
-                         f'probe, got {len(positions)} numbers: {list(positions)}')
+                         f'probe, got {len(positions)} numbers: {shown(list(positions))}')
     if positions and 'probes.weights' in given:
         weights, count = given['probes.weights'], len(positions) // 3
         if len(weights) != count:
             raise ValueError(f'probes.weights: expected {count} numbers, one for every probe, '
-                             f'got {len(weights)}: {list(weights)}')
+                             f'got {len(weights)}: {shown(list(weights))}')
     if 'hull.mesh' in given and 'hull.shape' not in given:
         raise ValueError('hull.shape: expected mesh because hull.mesh is given, got none')
     shape, spacing = in_force['hull.shape'], in_force['hull.spacing']

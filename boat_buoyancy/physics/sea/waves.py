@@ -268,7 +268,7 @@ def checked_waves(rows):
     try:
         flat = np.array(rows, float).ravel()
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f'sea.waves: expected {WAVE_FORM}, got {rows!r}') from None
+        raise ValueError(f'sea.waves: expected {WAVE_FORM}, got {checks.shown(rows)}') from None
     if flat.size % 4:
         raise ValueError(f'sea.waves: expected {WAVE_FORM}, four numbers a row, '
                          f'got {flat.size} numbers')
