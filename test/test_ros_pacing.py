@@ -16,7 +16,7 @@
 
 from fractions import Fraction
 
-from boat_buoyancy.ros import drive
+from boat_buoyancy.ros import clocks
 from boat_buoyancy.ros.pacing import CATCH_UP, Grid, NANOSECONDS, StepCounter, Timeline
 import pytest
 
@@ -107,14 +107,14 @@ class Clocks:
 
 
 @pytest.fixture
-def clocks(monkeypatch):
-    """Put clocks of the test in place of those of the drives."""
-    clocks = Clocks()
-    monkeypatch.setattr(drive, 'time', clocks)
-    return clocks
+def hands(monkeypatch):
+    """Put hands of the test in place of those of the drives."""
+    hands = Clocks()
+    monkeypatch.setattr(clocks, 'time', hands)
+    return hands
 
 
-def run(driven, clocks, seconds):
+def run(driven, hands, seconds):
     """Run what is due at 1 kHz for a while; return how many steps, and where stamps moved to."""
     steps, moves = 0, []
     for _ in range(round(seconds * 1000)):
@@ -124,31 +124,31 @@ def run(driven, clocks, seconds):
         for _ in range(turn.due):
             driven.ran()
         steps += turn.due
-        clocks.steady += 1_000_000
+        hands.steady += 1_000_000
     return steps, moves
 
 
 @pytest.mark.parametrize('step', [3600.0, -3600.25, 0.004, 86400.0 * 3650])
-def test_stamps_follow_a_wall_clock_that_steps_within_a_second_and_it_is_said_once(clocks, step):
+def test_stamps_follow_a_wall_clock_that_steps_within_a_second_and_it_is_said_once(hands, step):
     said = []
-    driven = drive.WallDrive(100.0, clocks.wall, said.append)
-    steps, (start,) = run(driven, clocks, 3.0)
+    driven = clocks.WallDrive(100.0, hands.wall, said.append)
+    steps, (start,) = run(driven, hands, 3.0)
     assert start == START and steps in (299, 300) and not said
-    clocks.ahead += round(step * 1e9)
-    steps, (moved_to,) = run(driven, clocks, 3.0)
+    hands.ahead += round(step * 1e9)
+    steps, (moved_to,) = run(driven, hands, 3.0)
     # Where the wall clock is, on the grid, within the second that lies between two looks.
     assert moved_to % 10_000_000 == 0
     assert 0 <= moved_to - (START + 3_000_000_000 + round(step * 1e9)) + 10_000_000 < 1_020_000_000
     # No step is lost, none is run twice.
     assert steps in (299, 300, 301)
     assert said == [f'the wall clock was stepped by {step:+.3f} s: stamps and sea follow']
-    assert run(driven, clocks, 3.0)[1] == [] and len(said) == 1
+    assert run(driven, hands, 3.0)[1] == [] and len(said) == 1
 
 
-def test_what_stops_the_process_between_two_readings_is_no_step_of_the_clock(clocks):
+def test_what_stops_the_process_between_two_readings_is_no_step_of_the_clock(hands):
     said = []
-    driven = drive.WallDrive(100.0, clocks.wall, said.append)
-    run(driven, clocks, 1.5)
-    clocks.lost = 50_000_000
-    steps, moves = run(driven, clocks, 1.5)
+    driven = clocks.WallDrive(100.0, hands.wall, said.append)
+    run(driven, hands, 1.5)
+    hands.lost = 50_000_000
+    steps, moves = run(driven, hands, 1.5)
     assert not moves and not said and steps in (154, 155, 156)

@@ -29,8 +29,8 @@ from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool, Trigger
 
 from . import network, qos, startup, transforms
+from .clocks import ClockDrive, SteadyDrive, WallDrive
 from .complaints import Refused, Throttle
-from .drive import ClockDrive, SteadyDrive, WallDrive
 from .ending import told_to_end
 from .initial_pose import read_place
 from .markers import Markers
@@ -45,7 +45,7 @@ from .wave_messages import WavesInput, WavesOutput
 from .wind import read_wind
 from ..physics.compiled import notice
 from ..physics.scene.parameters import NODE_NAME
-from ..physics.scene.remarks import sea_warnings
+from ..physics.scene.parameters_together import sea_warnings
 from ..physics.scene.scene import scene_from_values
 from ..physics.stepping.march import march_by
 

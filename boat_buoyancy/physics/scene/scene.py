@@ -24,7 +24,7 @@ from . import parameter_file, parameters
 from .build import (AHEAD, assembled_boat, assembled_sea, assembled_start, assembled_thrusters,
                     MADE_OF, NO_LIMITS, start_attitude)
 from .parameter_values import checked
-from .remarks import check_together, PROBES_ONLY, remarks, without_use
+from .parameters_together import check_together, PROBES_ONLY, remarks, without_use
 from ..boat.boat import Boat
 from ..boat.state import PARTS, State
 from ..forces.thrusters import Propulsion
