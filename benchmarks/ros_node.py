@@ -43,6 +43,10 @@ sys.path.insert(0, str(TEST))
 from ros_probe import BEST_EFFORT, compile_step, new_namespace, Probe, ROOT, wrench  # noqa: E402
 
 OUTPUTS = ('pose', 'twist', 'odom', 'probe_depth')
+EVERYTHING = (*OUTPUTS, 'probes', 'markers')
+SENSORS = ('imu', 'fix')
+THRUSTERS = {'thrusters.names': '[left, right]',
+             'thrusters.positions': '[-1.5, 0.8, -0.4, -1.5, -0.8, -0.4]'}
 RATES = (50.0, 100.0, 200.0, 500.0, 1000.0)
 
 LISTENER = """
@@ -50,14 +54,18 @@ import sys
 from ros_probe import Probe
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import PointCloud2
-from std_msgs.msg import Float64MultiArray
+from sensor_msgs.msg import Imu, NavSatFix, PointCloud2
+from std_msgs.msg import Float64, Float64MultiArray
 from visualization_msgs.msg import MarkerArray
 kinds = {'pose': PoseStamped, 'twist': TwistStamped, 'odom': Odometry,
-         'probe_depth': Float64MultiArray, 'probes': PointCloud2, 'markers': MarkerArray}
+         'probe_depth': Float64MultiArray, 'probes': PointCloud2, 'markers': MarkerArray,
+         'imu': Imu, 'fix': NavSatFix}
 with Probe(sys.argv[1], 'listener') as one:
     for topic in filter(None, sys.argv[2].split(',')):
         one.node.create_subscription(kinds[topic], topic, lambda message: None, 10)
+    drive = [one.node.create_publisher(Float64, f'thrusters/{name}/thrust', 1)
+             for name in sys.argv[3:]]
+    one.node.create_timer(0.05, lambda: [each.publish(Float64(data=100.0)) for each in drive])
     print('there', flush=True)
     one.spin(1e6)
 """
@@ -162,18 +170,24 @@ LOOPS = {'own loop, EventsExecutor (shipped)': SHIPPED,
 
 
 class Running:
-    """A node and a listener in processes of their own, while one measures."""
+    """
+    A node and a listener in processes of their own, while one measures.
 
-    def __init__(self, code, rate, topics):
+    With ``driven`` the boat has two thrusters, which the listener drives 20 times a second.
+    """
+
+    def __init__(self, code, rate, topics, driven=False):
         """Start both and let them settle."""
         self.namespace = new_namespace()
         own = ['-p', 'status_period:=0.0'] if code is not PLAIN else []
+        own += [word for name, value in THRUSTERS.items() if driven
+                for word in ('-p', f'{name}:={value}')]
         self._node = subprocess.Popen(
             [sys.executable, '-c', code, '--ros-args', '-r', f'__ns:={self.namespace}',
              '-p', f'rate:={rate}', *own], cwd=ROOT, stderr=subprocess.DEVNULL)
         self._listener = subprocess.Popen(
-            [sys.executable, '-c', LISTENER, self.namespace, ','.join(topics)], cwd=TEST,
-            stdout=subprocess.PIPE, text=True)
+            [sys.executable, '-c', LISTENER, self.namespace, ','.join(topics),
+             *(('left', 'right') if driven else ())], cwd=TEST, stdout=subprocess.PIPE, text=True)
         self._listener.stdout.readline()
         time.sleep(3.0)
 
@@ -195,9 +209,9 @@ class Running:
         self._listener.stdout.close()
 
 
-def load(code, rate, topics, seconds):
+def load(code, rate, topics, seconds, driven=False):
     """Return the share of a core that a node takes."""
-    with Running(code, rate, topics) as running:
+    with Running(code, rate, topics, driven) as running:
         before, began = running.cpu(), time.monotonic()
         time.sleep(seconds)
         return (running.cpu() - before) / (time.monotonic() - began)
@@ -283,15 +297,25 @@ def measure(seconds):
         '## By output, 100 Hz', '')
     rows, none = [], load(SHIPPED, 100.0, (), seconds)
     for topics in ((), *((topic,) for topic in OUTPUTS), OUTPUTS, (*OUTPUTS, 'probes'),
-                   (*OUTPUTS, 'probes', 'markers')):
+                   EVERYTHING):
         share = load(SHIPPED, 100.0, topics, seconds) if topics else none
         rows.append((', '.join(topics) or 'nobody listens', f'{share:.1%}',
                      f'{share / 100.0 * 1e6:.0f}'))
     yield from table(('subscribed', 'core', 'us per period'), rows)
+    yield from ('## With sensors, and two thrusters driven, 100 Hz', '')
+    # In turn and twice, the better counts: other work on the machine can only add.
+    shares = np.min([[load(SHIPPED, 100.0, EVERYTHING, seconds),
+                      load(SHIPPED, 100.0, (*EVERYTHING, *SENSORS), seconds, driven=True)]
+                     for _ in range(2)], axis=0)
+    yield from table(
+        ('subscribed', 'core', 'us per period', 'over the first'),
+        [(name, f'{share:.1%}', f'{share / 100.0 * 1e6:.0f}', f'{share / shares[0]:.2f}')
+         for name, share in zip((', '.join(EVERYTHING), 'these, imu, fix, and thrusts in'),
+                                shares)])
     yield from ('## By executor and loop, all default outputs', '')
     rows = []
     for rate in (100.0, 1000.0):
-        # In turn and twice, the better counts: other work on the machine can only add.
+        # In turn and twice, as above.
         shares = [[load(code, rate, OUTPUTS, seconds) for code in LOOPS.values()]
                   for _ in range(2)]
         best = np.min(shares, axis=0)

@@ -34,16 +34,23 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from ros_probe import BEST_EFFORT, BoatProcess, NAME, nanoseconds, Probe, wrench
-from std_msgs.msg import Float64MultiArray
+from sensor_msgs.msg import Imu, NavSatFix
+from std_msgs.msg import Float64, Float64MultiArray
 
 
 RATE = 100.0
+# All that a boat can have.
+BOAT = {'sea.waves': [0.05, 4.0, 0.0, 0.0], 'status_period': 0.0, 'imu.accelerometer_noise': 0.05,
+        'imu.orientation_noise': 0.01, 'fix.noise': [0.5, 1.0],
+        'thrusters.names': ['left', 'right'],
+        'thrusters.positions': [-1.5, 0.8, -0.4, -1.5, -0.8, -0.4], 'thrusters.lag': 0.1,
+        'thrusters.limits': [-500.0, 1000.0, -500.0, 1000.0]}
 
 
 @pytest.fixture(scope='module')
 def boat():
     """Start one boat for all that it has to bear."""
-    with BoatProcess({'sea.waves': [0.05, 4.0, 0.0, 0.0], 'status_period': 0.0}) as process:
+    with BoatProcess(BOAT) as process:
         yield process
 
 
@@ -52,8 +59,9 @@ def probe(boat):
     """Look at it with one probe."""
     with Probe(boat.namespace) as one:
         one.poses, one.twists, _, one.depths = one.listen_to_boat()
+        one.imu, one.fix = one.listen(Imu, 'imu'), one.listen(NavSatFix, 'fix')
         one.diagnostics = one.listen(DiagnosticArray, '/diagnostics')
-        one.until(lambda: one.poses and one.depths)
+        one.until(lambda: one.poses and one.depths and one.imu and one.fix)
         yield one
 
 
@@ -68,7 +76,8 @@ class Steady:
         """Begin to count."""
         self._probe.until(lambda: self._steps() is not None)
         self._before = self._steps()
-        for messages in (self._probe.poses, self._probe.twists, self._probe.depths):
+        probe = self._probe
+        for messages in (probe.poses, probe.twists, probe.depths, probe.imu, probe.fix):
             messages.clear()
         return self
 
@@ -87,6 +96,16 @@ class Steady:
             assert all(map(math.isfinite, (place.x, place.y, place.z, turned.x, turned.w)))
         for message in probe.depths:
             assert all(map(math.isfinite, message.data))
+        for message in probe.imu:
+            felt, turned = message.linear_acceleration, message.orientation
+            assert all(map(math.isfinite, (felt.x, felt.y, felt.z, turned.x, turned.w)))
+        for message in probe.fix:
+            assert all(map(math.isfinite, (message.latitude, message.longitude,
+                                           message.altitude)))
+        # An IMU message for every pose, a fix for every tenth, but for what is on its way.
+        assert len(probe.poses) > 300
+        assert len(probe.imu) == pytest.approx(len(probe.poses), abs=10)
+        assert 10 * len(probe.fix) == pytest.approx(len(probe.poses), abs=20)
 
     def _steps(self):
         """Return the stamp in s and the steps of the last diagnostics."""
@@ -104,13 +123,17 @@ def steady(boat, probe):
     return Steady(boat, probe)
 
 
+# Sends wrenches, or thrusts for the thruster that is named.
 FLOOD = """
 import sys, time
 from ros_probe import BEST_EFFORT, Probe, wrench
 from geometry_msgs.msg import WrenchStamped
+from std_msgs.msg import Float64
 with Probe(sys.argv[1], 'flood') as one:
-    thrust = one.publisher(WrenchStamped, 'thrust', BEST_EFFORT)
-    message, sent = wrench((2000.0, 0.0, 0.0)), 0
+    name = sys.argv[3:]
+    message = Float64(data=2000.0) if name else wrench((2000.0, 0.0, 0.0))
+    topic = f'thrusters/{name[0]}/thrust' if name else 'thrust'
+    thrust, sent = one.publisher(type(message), topic, BEST_EFFORT), 0
     start = time.monotonic()
     while (now := time.monotonic() - start) < float(sys.argv[2]):
         while sent < 5000 * now:
@@ -121,14 +144,18 @@ with Probe(sys.argv[1], 'flood') as one:
 """
 
 
+@pytest.mark.parametrize('thruster', [(), ('left',)], ids=['wrenches', 'thrusts'])
 @pytest.mark.parametrize('seconds', [3.0, pytest.param(30.0, marks=pytest.mark.long)])
-def test_five_thousand_wrenches_a_second(boat, probe, steady, seconds):
+def test_five_thousand_commands_a_second(boat, probe, steady, seconds, thruster):
     with steady:
-        flood = subprocess.Popen([sys.executable, '-c', FLOOD, boat.namespace, str(seconds)],
-                                 cwd=os.path.dirname(__file__), stdout=subprocess.PIPE, text=True)
+        flood = subprocess.Popen(
+            [sys.executable, '-c', FLOOD, boat.namespace, str(seconds), *thruster],
+            cwd=os.path.dirname(__file__), stdout=subprocess.PIPE, text=True)
         probe.until(lambda: flood.poll() is not None, timeout=seconds + 20.0)
         assert float(flood.stdout.read()) > 4000.0
-        assert probe.twists[-1].twist.linear.x > 0.15
+        # A thruster gives half of what a wrench does.
+        assert probe.twists[-1].twist.linear.x > (0.07 if thruster else 0.15)
+    probe.trigger('reset')
 
 
 def bad_messages():
@@ -155,13 +182,17 @@ def bad_messages():
         message = Vector3Stamped(vector=Vector3(x=x, z=z))
         message.header.frame_id = frame
         yield 'wind', message
+    for value in (nan, inf, -inf):
+        for part in ('thrust', 'pos'):
+            yield f'thrusters/left/{part}', Float64(data=value)
 
 
 @pytest.mark.parametrize('count', [2_000, pytest.param(10_000, marks=pytest.mark.long)])
 def test_malformed_messages_of_every_kind(boat, probe, steady, count):
     kinds = {'thrust': WrenchStamped, 'wave_parameters': Float64MultiArray,
-             'initialpose': PoseWithCovarianceStamped, 'wind': Vector3Stamped}
-    publishers = {topic: probe.publisher(kind, topic, BEST_EFFORT if topic == 'thrust'
+             'initialpose': PoseWithCovarianceStamped, 'wind': Vector3Stamped,
+             'thrusters/left/thrust': Float64, 'thrusters/left/pos': Float64}
+    publishers = {topic: probe.publisher(kind, topic, BEST_EFFORT if 'thrust' in topic
                                          else QoSProfile(depth=1000))
                   for topic, kind in kinds.items()}
     bad = list(bad_messages())
@@ -176,7 +207,8 @@ def test_malformed_messages_of_every_kind(boat, probe, steady, count):
     assert place is None or abs(probe.poses[-1].pose.position.x - place.x) < 1.0
     for reason in ('expected finite numbers', 'expected frame_id', 'four numbers a row',
                    'expected an amplitude', 'expected at most 1000 rows',
-                   'times the weight', 'expected a unit quaternion', 'wind: expected a z of 0'):
+                   'times the weight', 'expected a unit quaternion', 'wind: expected a z of 0',
+                   'thrusters/left/thrust: expected finite', 'thrusters/left/pos: expected fin'):
         assert reason in boat.log, reason
     # Throttled: a reason is not said more than once in five seconds.
     assert len(boat.lines) < count / 20
@@ -292,10 +324,13 @@ def memory_of(process):
 def test_ten_minutes_of_everything_neither_grow_nor_lose_a_step():
     chance = random.Random(1)
     seconds = float(os.environ.get('BOAT_BUOYANCY_SOAK', '600'))
-    with BoatProcess({'sea.sea_state': 3}) as boat, Probe(boat.namespace) as one:
+    values = {**BOAT, 'sea.waves': [], 'sea.sea_state': 3, 'status_period': 5.0}
+    with BoatProcess(values) as boat, Probe(boat.namespace) as one:
         thrust = one.publisher(WrenchStamped, 'thrust', BEST_EFFORT)
+        drive = [one.publisher(Float64, f'thrusters/{topic}', BEST_EFFORT)
+                 for topic in ('left/thrust', 'right/thrust', 'left/pos')]
         waves = one.publisher(Float64MultiArray, 'wave_parameters')
-        lists = one.listen_to_boat()
+        lists = *one.listen_to_boat(), one.listen(Imu, 'imu'), one.listen(NavSatFix, 'fix')
         diagnostics = one.listen(DiagnosticArray, '/diagnostics')
         last, missing, dropped, memory = None, 0, 0, []
         start = time.monotonic()
@@ -303,6 +338,8 @@ def test_ten_minutes_of_everything_neither_grow_nor_lose_a_step():
         def push():
             thrust.publish(wrench((chance.uniform(-500, 500), 0.0, 0.0),
                                   (0.0, 0.0, chance.uniform(-100, 100))))
+            for publisher, most in zip(drive, (1000.0, 1000.0, 1.0)):
+                publisher.publish(Float64(data=chance.uniform(-most, most)))
 
         while time.monotonic() < start + seconds:
             end = time.monotonic() + 5.0
