@@ -270,8 +270,9 @@ def _table():
                   'x, y, z of where each pushes the boat, of any length; without it ahead. Higher '
                   'x, y, z push more ahead, to port, up.', at_least=-1e6, at_most=1e6, **fixed),
         Parameter('thrusters.limits', 'float_array', None, 'N',
-                  'Least and greatest thrust of each, 0 between them, one flat list; without it no '
-                  'limits. Higher pushes harder at full power.', at_least=-1e15, at_most=1e15, **fixed),
+                  'Least and greatest thrust of each, 0 between them, one flat list; without it '
+                  'no limits. Higher pushes harder at full power.', at_least=-1e15, at_most=1e15,
+                  **fixed),
         Parameter('thrusters.lag', 'float', 0.0, 's',
                   'Time constant of their thrust; 0 = at once. Higher follows more slowly.',
                   at_least=0.0, at_most=1e6, **fixed),
