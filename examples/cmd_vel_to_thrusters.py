@@ -35,6 +35,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import ParameterDescriptor
 import rclpy
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_msgs.msg import Float64
@@ -98,6 +99,10 @@ def main():
         rclpy.spin(CmdVelToThrusters())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except RCLError:
+        # The signal came in the middle of a callback: nothing can be sent any more.
+        if rclpy.ok():
+            raise
 
 
 if __name__ == '__main__':

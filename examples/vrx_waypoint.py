@@ -27,6 +27,7 @@ import time
 
 from rcl_interfaces.msg import ParameterDescriptor
 import rclpy
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
@@ -104,6 +105,10 @@ def main():
         rclpy.shutdown()
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except RCLError:
+        # The signal came in the middle of a callback: nothing can be sent any more.
+        if rclpy.ok():
+            raise
 
 
 if __name__ == '__main__':
