@@ -50,17 +50,9 @@ collect_ignore = [_linters[linter] for linter in _missing]
 _hosts = may_make_namespaces()
 
 
-def pytest_collection_modifyitems(config, items):
-    """
-    Leave out what cannot be tested here, and keep the ROS tests on one worker.
-
-    They watch rates.
-    """
+def pytest_collection_modifyitems(items):
+    """Leave out what cannot be tested here."""
     items[:] = [item for item in items if _hosts or not item.get_closest_marker('namespaces')]
-    if config.pluginmanager.hasplugin('xdist'):
-        for item in items:
-            if item.path.name.startswith('test_ros_'):
-                item.add_marker(pytest.mark.xdist_group('ros'))
 
 
 def pytest_report_header():
