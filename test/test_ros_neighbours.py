@@ -187,6 +187,9 @@ def test_one_that_goes_to_and_fro_beside_one_that_was_killed_is_no_fight(boat, p
                               cwd=os.path.dirname(__file__), stdout=subprocess.PIPE)
     try:
         assert silent.stdout.readline() == 'silent\n'
+        # Who is killed before anybody knows of him is never there.
+        probe.until(lambda: probe.node.get_publishers_info_by_topic(
+            f'{boat.namespace}/thrust'))
     finally:
         silent.kill()
         silent.wait()
