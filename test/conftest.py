@@ -55,6 +55,21 @@ def pytest_collection_modifyitems(items):
     items[:] = [item for item in items if _hosts or not item.get_closest_marker('namespaces')]
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Keep the tests of a file on one worker, and all ROS tests on one, as they watch rates."""
+    # Not by groups: pytest-xdist 3.8 does not tell pytest 9.2 about them.
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+
+        def _split_scope(self, nodeid):
+            file = super()._split_scope(nodeid)
+            return 'ros' if Path(file).name.startswith('test_ros_') else file
+
+    return Scheduling(config, log)
+
+
 def pytest_report_header():
     """Say which linters are not installed, and where the node under test listens."""
     lines = ['ROS_DOMAIN_ID: ' + os.environ['ROS_DOMAIN_ID']]
