@@ -561,6 +561,7 @@ PARAMETER_SETS = st.lists(st.sampled_from(list(PARAMETERS.values())), max_size=6
 @settings(max_examples=300, suppress_health_check=[HealthCheck.too_slow])
 @given(PARAMETER_SETS)
 @example({'probes.positions': [0.0] * 3, 'probes.floatiness': 1.0 + 1e-15})
+@example({'sea.significant_height': 2e-309, 'sea.peak_period': 1000.0})
 def test_any_parameters_give_a_scene_that_starts_or_one_line(parameters):
     try:
         scene = load_scene(parameters)

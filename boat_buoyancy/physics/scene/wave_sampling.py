@@ -42,6 +42,8 @@ def sampling_warnings(boat, sea, values):
     amplitude, hull = sea.table[START], boat.hull
     if not amplitude.any():
         return _unreached(hull)
+    # Only their ratios matter, and the squares of the smallest numbers are 0.
+    amplitude = amplitude / np.abs(amplitude).max()
     k = np.hypot(sea.table[KX], sea.table[KY])
     shortest = f'the shortest wave that matters is {sea.shortest_length:.3g} m long'
     if hull.panels is not None:
