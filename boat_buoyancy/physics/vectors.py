@@ -74,6 +74,12 @@ def multiply(a, b):
 
 
 @compiled
+def divide(a, b):
+    """Return a / b, component by component."""
+    return (a[0] / b[0], a[1] / b[1], a[2] / b[2])
+
+
+@compiled
 def diagonal(a):
     """Return the symmetric matrix with a on its diagonal."""
     return (a[0], a[1], a[2], 0.0, 0.0, 0.0)

@@ -28,8 +28,13 @@ def buoyancy(law, probe, wet, share, up):
     F = F_i share up, acting at p = r + arm z_body: torque p x F.
     """
     lift = scale(probe.max_force * share, up)
-    place = (probe.x, probe.y, probe.z + arm(law, probe.height, wet, up[2]))
-    return lift, cross(place, lift)
+    return lift, cross(point_of_force(law, probe, wet, up), lift)
+
+
+@compiled
+def point_of_force(law, probe, wet, up):
+    """Return p (3) m, where the lift of a probe acts, from the centre of mass in body axes."""
+    return (probe.x, probe.y, probe.z + arm(law, probe.height, wet, up[2]))
 
 
 @compiled
@@ -49,7 +54,7 @@ def lift_stiffness(boat, hull, R):
     for i in range(len(hull.probes)):
         probe, depth = hull.probes[i], hull.depths[i]
         wet, share = wetting(boat.law, probe.height, depth, up[2])
-        place = (probe.x, probe.y, probe.z + arm(boat.law, probe.height, wet, up[2]))
+        place = point_of_force(boat.law, probe, wet, up)
         stiffness = probe.max_force * slope(boat.law, probe.height, depth, up[2])
         around = cross(place, up)
         k += stiffness

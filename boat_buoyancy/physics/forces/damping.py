@@ -108,17 +108,18 @@ def body_damping(boat, wetness):
 @compiled
 def with_quadratic_drag(boat, load, body_velocity, angular_velocity):
     """
-    Return damping matrix and force with quadratic drag at the speed given, linear in velocity.
+    Return damping matrix, force and torque with quadratic drag at a speed, linear in velocity.
 
-    -q |u| u on each body axis, times the wetness, speeds relative to the water; the rotation
-    relative to none.
+    -q |u| u on each body axis, times the wetness, speeds relative to the water.
     """
     q = boat.quadratic
-    s, u, w = load.wetness, subtract(body_velocity, load.water), angular_velocity
+    s, u = load.wetness, subtract(body_velocity, load.water)
+    w = subtract(angular_velocity, load.turning)
     drag = (s * q[0] * abs(u[0]), s * q[1] * abs(u[1]), s * q[2] * abs(u[2]))
     spin_drag = (s * q[3] * abs(w[0]), s * q[4] * abs(w[1]), s * q[5] * abs(w[2]))
     return (with_body(load.damping, drag, diagonal(spin_drag)),
-            add(load.force, multiply(drag, load.water)))
+            add(load.force, multiply(drag, load.water)),
+            add(load.torque, multiply(spin_drag, load.turning)))
 
 
 @compiled

@@ -26,7 +26,7 @@ import math
 from ..compiled import compiled, FUSED
 from ..rotation import normalise, product
 from ..trigonometry import EIGHTH_TURN, sine_cosine, sine_cosine_of_eighth
-from ..vectors import add_scaled, dot, scale, three
+from ..vectors import add_scaled, dot, scale
 
 # Moments this close to each other are those of a sphere.
 EQUAL = 1e-12
@@ -46,10 +46,14 @@ def turn(a, b, c, w, mb, mc, half):
 
 
 @compiled
-def free_rotation(boat, orientation, angular_velocity, h):
-    """Return orientation and angular velocity (body axes) after h s without any torque."""
-    i1, i2, i3 = boat.moments[0], boat.moments[1], boat.moments[2]
-    if i3 - i1 <= EQUAL * i3:
+def free_rotation(moments, axes, orientation, angular_velocity, h):
+    """
+    Return orientation and angular velocity (body axes) after h s without any torque.
+
+    ``moments`` (3) kg m^2, best in rising order, about the three ``axes``, each (3).
+    """
+    i1, i2, i3 = moments
+    if max(i1, i2, i3) - min(i1, i2, i3) <= EQUAL * i3:
         # Three equal moments: one turn about a fixed axis is the motion itself.
         speed = math.sqrt(dot(angular_velocity, angular_velocity))
         s, c = sine_cosine(0.5 * h * speed)
@@ -58,7 +62,7 @@ def free_rotation(boat, orientation, angular_velocity, h):
         return normalise(product(orientation, (x, y, z, c))), angular_velocity
 
     # Along the principal axes, where r is the rotation since the start of the step.
-    a1, a2, a3 = three(boat.axis_1), three(boat.axis_2), three(boat.axis_3)
+    a1, a2, a3 = axes
     l1, l2, l3 = (i1 * dot(a1, angular_velocity), i2 * dot(a2, angular_velocity),
                   i3 * dot(a3, angular_velocity))
     quarter_1, quarter_2, half_3 = 0.25 * h / i1, 0.25 * h / i2, 0.5 * h / i3
