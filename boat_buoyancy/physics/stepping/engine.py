@@ -63,7 +63,7 @@ class Engine:
         size = len(self.boats)
         self.failed, self._reached = np.zeros(size, int), np.zeros(size)
         self._rows = np.array(rows, float)
-        self._loads, self._depths = np.zeros((size, LOAD_SIZE)), np.zeros((size, *counts))
+        self._loads, self._depths = np.zeros((size, LOAD_SIZE)), np.zeros((size, 2, *counts))
         self.is_plain = False
         self._set_records()
         march = march_by(integrator)
@@ -89,14 +89,14 @@ class Engine:
     @property
     def depths(self):
         """Return (B, n) m, how deep all probes are."""
-        return np.array(self._depths)
+        return np.array([depths[0] for depths in self._depths])
 
     def forces(self, boat):
         """Return the lift (n,) N of each probe of one boat."""
         hull, up = self.boats[boat].hull, rotation_matrix(self.row(boat)[3:7])[2]
         law = LAWS.index(hull.law)
         return hull.max_force * [wetting(law, height, depth, up[2])[1] for height, depth in zip(
-            hull.height.tolist(), np.asarray(self._depths[boat]).tolist())]
+            hull.height.tolist(), np.asarray(self._depths[boat][0]).tolist())]
 
     def accelerations(self, boat, thrust):
         """Return linear and angular acceleration, body axes, of one boat under a thrust (6)."""
@@ -172,7 +172,7 @@ class Engine:
             for j in range(periods):
                 row = i * by_boat + j * by_period
                 rows = slice(j, j + 1)
-                written, written_depths = ([[0.0] * 13], [list(self._depths[i])]) if len(
+                written, written_depths = ([[0.0] * 13], [list(self._depths[i][0])]) if len(
                     track) else (NO_TRACK, NO_TRACK)
                 try:
                     self._march(*part, thrust[row:row + 1], 0, 0, first + j, 1, written,

@@ -47,7 +47,8 @@ def march(boats, probes, corners, triangles, seas, waves, paces, states, loads, 
 
     Main arguments: records of ``boats`` (B,), ``probes`` (B, n), ``seas`` (S,), ``paces`` (B,);
     ``corners`` and ``triangles`` of P panelled hulls; ``waves`` S tables.  Rows that change:
-    ``states``, ``loads``, ``depths`` and ``places`` of each boat, ``reached`` (B,) |u|_M,
+    ``states``, ``loads``, ``depths`` (B, 2, n), now and before the period, and ``places`` of each
+    boat, ``reached`` (B,) |u|_M,
     ``failed`` (B,), the number of the period in which a boat failed, or 0: it stands still from
     then on, in its last good state.
     Other arguments: ``thrust`` (k, 6) N and N m, body axes, at the body origin; row
@@ -56,7 +57,7 @@ def march(boats, probes, corners, triangles, seas, waves, paces, states, loads, 
     empty.
     """
     for i in range(len(boats)):
-        boat, pace, depth = boats[i], paces[i], depths[i]
+        boat, pace, depth, kept = boats[i], paces[i], depths[i][0], depths[i][1]
         sea, table = seas[pace.sea], waves[pace.sea]
         hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels], depth, places[i])
         state, memory, greatest = states[i], loads[i], float(reached[i])
@@ -66,6 +67,7 @@ def march(boats, probes, corners, triangles, seas, waves, paces, states, loads, 
             if failed[i] != 0:
                 break
             push = about_center_of_mass(boat, thrust[i * by_boat + j * by_period])
+            copy(depth, kept)
             after, load_after = motion, load
             for k in range(pace.substeps):
                 t = ((first + j) * pace.substeps + k) / (pace.rate * pace.substeps)
@@ -75,15 +77,16 @@ def march(boats, probes, corners, triangles, seas, waves, paces, states, loads, 
                     failed[i] = first + j + 1
                     break
             if failed[i] != 0:
-                # The depths were written over: those of the last good state, to be read again.
+                # What the hull has was written over: that of the last good state again.  Sums
+                # are rounded another way here than within a step, so the depths are those kept.
                 load_at(boat, hull, sea, table, motion.position, motion.orientation,
                         (first + j) / pace.rate)
+                copy(kept, depth)
                 break
             motion, load, reached[i] = after, load_after, greatest
             if len(track) > 0:
                 write_motion(motion, track[j])
-                for n in range(len(depth)):
-                    depth_track[j][n] = depth[n]
+                copy(depth, depth_track[j])
         write_motion(motion, state)
         write_load(load, memory)
     count = 0
@@ -103,10 +106,17 @@ def begin(boats, probes, corners, triangles, seas, waves, paces, states, loads, 
     """Compute loads and depths of the boats ``chosen`` (k,) at their places and t s."""
     for i in chosen:
         motion, pace = read_motion(states[i]), paces[i]
-        hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels], depths[i],
+        hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels], depths[i][0],
                         places[i])
         write_load(load_at(boats[i], hull, seas[pace.sea], waves[pace.sea], motion.position,
                            motion.orientation, t), loads[i])
+
+
+@compiled
+def copy(numbers, row):
+    """Write some numbers to a row as long."""
+    for n in range(len(numbers)):
+        row[n] = numbers[n]
 
 
 @compiled
