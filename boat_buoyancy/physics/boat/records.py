@@ -41,12 +41,15 @@ BOAT = np.dtype([
     ('water_retention', 'f8', 3), ('water_spin_retention', 'f8', 6),
     ('air_retention', 'f8', 3), ('air_spin_retention', 'f8', 6),
     ('linear', 'f8', 6), ('quadratic', 'f8', 6), ('wind_drag', 'f8', 2), ('wind_arm', 'f8'),
-    ('has_quadratic', 'i8'),
+    ('has_quadratic', 'i8'), ('added_mass', 'f8', 6), ('has_added_mass', 'i8'),
+    ('wet_axis_1', 'f8', 3), ('wet_axis_2', 'f8', 3), ('wet_axis_3', 'f8', 3),
+    ('follows_waves', 'i8'), ('middle', 'f8', 2), ('per_yy', 'f8'), ('per_xx', 'f8'),
+    ('per_rr', 'f8'),
     ('corners', 'i8'), ('triangles', 'i8'), ('specific_weight', 'f8'), ('max_lift', 'f8'),
     ('reach', 'f8')])
 # Place m, most lift N, depth m at which it is reached, and share of the budget.
 PROBE = np.dtype([('x', 'f8'), ('y', 'f8'), ('z', 'f8'), ('max_force', 'f8'), ('height', 'f8'),
-                  ('share', 'f8')])
+                  ('share', 'f8'), ('along', 'f8'), ('across', 'f8')])
 
 SYMMETRIC = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
@@ -56,14 +59,16 @@ class HullView(NamedTuple):
     A hull as the step reads it, and what it writes of it.
 
     Read: ``probes`` (n,) records of `PROBE`; ``corners``, rows x, y, z in m, and ``triangles``,
-    rows of the numbers of their first, second and third corners, of a hull of panels.
+    rows of the numbers of their first, second and third corners, of a hull of panels; ``decay``
+    (n, 4, W), how waves die out down to the probes, see `forces.wave_force`, or empty.
     Written: ``depths`` (n,) m of the probes; ``places`` of the corners, rows x, y, z from the
-    centre of mass in world axes and depth, m.
+    centre of mass in world axes, depth and head of pressure, m.
     """
 
     probes: object
     corners: object
     triangles: object
+    decay: object
     depths: object
     places: object
 
@@ -71,7 +76,9 @@ class HullView(NamedTuple):
 def boat_record(boat):
     """Return a `Boat` as a record of `BOAT`."""
     water, air = boat.retention_damping
-    moments, axes = boat.principal
+    moments, axes = principal(boat.inertia)
+    _, wet_axes = principal(boat.inertia + np.diag(boat.added_mass[3:]))
+    middle, away = waterplane(boat)
     damping, hull, (corners, triangles) = boat.damping, boat.hull, boat.panel_rows
     reach = np.linalg.norm(corners, axis=0).max(initial=0.0)
     return np.array((
@@ -79,7 +86,8 @@ def boat_record(boat):
         moments, *axes.T, LAWS.index(hull.law), damping.probe,
         np.diag(water)[:3], symmetric(water[3:, 3:]), np.diag(air)[:3], symmetric(air[3:, 3:]),
         damping.linear, damping.quadratic, damping.wind[:2], damping.wind_arm,
-        damping.quadratic.any() or damping.wind.any(), corners.shape[1], triangles.shape[1],
+        damping.quadratic.any() or damping.wind.any(), boat.added_mass, boat.added_mass.any(),
+        *wet_axes.T, boat.follows_waves, middle, *waterplane_spread, corners.shape[1], triangles.shape[1],
         hull.specific_weight, hull.max_lift, reach), BOAT)
 
 

@@ -15,14 +15,15 @@
 """
 Newton and Euler: M a = f - C u, M = diag(m, m, m, I), about the centre of mass in body axes.
 
-Velocities and wrenches are pairs of vectors, of translation and of rotation.
+With added mass M is that in force (Kirchhoff), as `forces.added_mass` has it.  Velocities and wrenches are pairs of vectors, of translation and of rotation.
 """
 
 from ..compiled import compiled
+from ..forces.added_mass import mass_in_force, munk
 from ..forces.damping import damping_wrench
 from ..forces.load import at_speed
-from ..vectors import add, add_scaled_matrix, cross, factor, multiply, scale, six, solve_factored
-from ..vectors import subtract, times
+from ..vectors import (add, add_scaled_matrix, cross, factor, multiply, scale, solve_factored,
+                       subtract, times)
 
 
 @compiled
@@ -34,19 +35,19 @@ def net_wrench(damping, force, torque, thrust, body_velocity, angular_velocity):
 
 
 @compiled
-def damped_accelerations(boat, damping, s, force, torque):
+def damped_accelerations(boat, load, damping, s, force, torque):
     """
     Return a of (M + s C) a = (force, torque): M^-1 f with s = 0, Crank-Nicolson with dt / 2.
 
     The force block is diagonal, with inverse n: it is eliminated, which leaves for the rotation
     I + s D - B n B^T, B = [s S x] with s e added in (z, y): symmetric and positive definite.
     """
-    m = boat.mass
-    n = (1.0 / (m + s * damping.linear[0]), 1.0 / (m + s * damping.linear[1]),
-         1.0 / (m + s * damping.linear[2]))
+    m, inertia = mass_in_force(boat, load.wetness)
+    n = (1.0 / (m[0] + s * damping.linear[0]), 1.0 / (m[1] + s * damping.linear[1]),
+         1.0 / (m[2] + s * damping.linear[2]))
     S = (x, y, z) = scale(s, damping.coupling)
     e = s * damping.sway_yaw
-    left = add_scaled_matrix(six(boat.inertia), s, damping.angular)
+    left = add_scaled_matrix(inertia, s, damping.angular)
     left = add_scaled_matrix(left, -1.0, (
         z * z * n[1] + y * y * n[2], z * z * n[0] + x * x * n[2],
         y * y * n[0] + (x + e) * (x + e) * n[1],
@@ -64,5 +65,15 @@ def explicit_accelerations(boat, load, thrust, body_velocity, angular_velocity):
     damping, force, torque = at_speed(boat, load, body_velocity, angular_velocity)
     force, torque = net_wrench(damping, force, torque, thrust, body_velocity,
                                angular_velocity)
-    gyroscopic = cross(angular_velocity, times(six(boat.inertia), angular_velocity))
-    return damped_accelerations(boat, damping, 0.0, force, subtract(torque, gyroscopic))
+    mass, inertia = mass_in_force(boat, load.wetness)
+    spin = angular_velocity
+    torque = subtract(torque, cross(spin, times(inertia, spin)))
+    if boat.has_added_mass == 0:
+        return damped_accelerations(boat, load, damping, 0.0, force, torque)
+    # The momentum M v turns with the boat, v relative to the stream.
+    relative = subtract(body_velocity, load.stream)
+    momentum = multiply(mass, relative)
+    linear, angular = damped_accelerations(
+        boat, load, damping, 0.0, subtract(force, cross(spin, momentum)),
+        add(torque, munk(mass, relative)))
+    return add(linear, cross(spin, relative)), angular

@@ -14,12 +14,12 @@
 
 """The two Euler integrators, for study: explicit, and symplectic as in a plain game loop."""
 
+from .arrival import arrival
 from .equations_of_motion import damped_accelerations, explicit_accelerations
 from .rates import add_scaled_quaternion, moved, rate_of
 from ..boat.state import Motion
 from ..compiled import compiled
 from ..forces.damping import no_damping, retention
-from ..forces.load import load_at
 from ..rotation import normalise, product, rotation_matrix, to_body, to_world
 from ..vectors import add_scaled, multiply, scale, subtract, times
 
@@ -28,7 +28,7 @@ from ..vectors import add_scaled, multiply, scale, subtract, times
 def euler(boat, hull, sea, waves, motion, load, thrust, t, h):
     """Return motion and load after h s, both from the old rates: never stable, for study."""
     motion = moved(motion, rate_of(boat, load, thrust, motion), h)
-    return motion, load_at(boat, hull, sea, waves, motion.position, motion.orientation, t + h)
+    return arrival(boat, hull, sea, waves, motion, load, t + h)
 
 
 @compiled
@@ -53,14 +53,14 @@ def symplectic_euler(boat, hull, sea, waves, motion, load, thrust, t, h):
     x, y, z = scale(0.5, spin)
     orientation = normalise(add_scaled_quaternion(
         motion.orientation, h, product(motion.orientation, (x, y, z, 0.0))))
-    load = load_at(boat, hull, sea, waves, position, orientation, t + h)
-    return Motion(position, orientation, to_body(rotation_matrix(orientation), velocity),
-                  spin), load
+    motion = Motion(position, orientation, to_body(rotation_matrix(orientation), velocity), spin)
+    return arrival(boat, hull, sea, waves, motion, load, t + h)
 
 
 @compiled
 def retained(boat, load, body_velocity, spin):
     """Return what retention takes a second of a velocity relative to the water, M^-1 D u."""
     drag, spin_drag = retention(boat, load.wetness)
-    return damped_accelerations(boat, no_damping(), 0.0, multiply(
-        drag, subtract(body_velocity, load.water)), times(spin_drag, spin))
+    return damped_accelerations(boat, load, no_damping(), 0.0, multiply(
+        drag, subtract(body_velocity, load.water)), times(
+            spin_drag, subtract(spin, load.turning)))

@@ -16,15 +16,17 @@
 
 import math
 
+from .arrival import arrival
 from .equations_of_motion import net_wrench
-from .free_rotation import free_rotation
+from .free_motion import free_motion
 from ..boat.state import Motion
 from ..compiled import compiled
+from ..forces.added_mass import mass_in_force
 from ..forces.buoyancy import lift_stiffness
-from ..forces.load import at_speed, load_at
+from ..forces.load import at_speed
 from ..rotation import rotation_matrix, to_body, to_world
-from ..vectors import (add_scaled, add_scaled_matrix, diagonal, dot, factor, outer, scale,
-                       six, solve_factored, subtract, times)
+from ..vectors import (add_scaled, add_scaled_matrix, diagonal, dot, factor, multiply, outer,
+                       scale, solve_factored, subtract, times)
 
 
 @compiled
@@ -44,36 +46,53 @@ def implicit(boat, hull, sea, waves, motion, load, thrust, t, h):
     # K+ u, with the speed up that the springs feel: k up.v + l.w.
     sprung = scale(k * dot(up, v) + dot(lever, w), up)
     wrung = add_scaled(times(K, w), dot(up, v), lever)
-    acceleration, spin_up = solve_implicit(boat, damping, up, k, lever, K, h, add_scaled(
-        force, -h, sprung), add_scaled(torque, -h, wrung))
-    velocity = to_world(R, add_scaled(v, h, acceleration))
-    spin = add_scaled(w, h, spin_up)
-
-    orientation, turned = free_rotation(boat, motion.orientation, spin, h)
-    # The turns keep angular momentum, not energy; the bound needs energy to be kept, and scaling
-    # only downwards would let it leak away.
-    inertia = six(boat.inertia)
-    before, after = dot(spin, times(inertia, spin)), dot(turned, times(inertia, turned))
-    spin = scale(math.sqrt(before / (after + 1e-300)), turned)
-    position = add_scaled(motion.position, h, velocity)
-    load = load_at(boat, hull, sea, waves, position, orientation, t + h)
-    return Motion(position, orientation, to_body(rotation_matrix(orientation), velocity),
-                  spin), load
+    mass, inertia = mass_in_force(boat, load.wetness)
+    acceleration, spin_up = solve_implicit(
+        mass, inertia, damping, up, k, lever, K, h, add_scaled(force, -h, sprung),
+        add_scaled(torque, -h, wrung))
+    before = Motion(motion.position, motion.orientation, add_scaled(v, h, acceleration),
+                    add_scaled(w, h, spin_up))
+    motion = with_energy_of(boat, load, before, free_motion(boat, load, before, h))
+    return arrival(boat, hull, sea, waves, motion, load, t + h)
 
 
 @compiled
-def solve_implicit(boat, damping, up, k, lever, K, h, force, torque):
+def with_energy_of(boat, load, before, after):
+    """
+    Return a `Motion` ``after`` a free one, its kinetic energy that of ``before``.
+
+    A free motion keeps momentum to round-off, and energy only nearly; the bound needs energy to
+    be kept, and scaling only downwards would let it leak away.
+    """
+    mass, inertia = mass_in_force(boat, load.wetness)
+    spin, turned = before.angular_velocity, after.angular_velocity
+    was, is_now = dot(spin, times(inertia, spin)), dot(turned, times(inertia, turned))
+    if boat.has_added_mass == 0:
+        return Motion(after.position, after.orientation, after.body_velocity,
+                      scale(math.sqrt(was / (is_now + 1e-300)), turned))
+    stream = to_body(rotation_matrix(after.orientation), to_world(
+        rotation_matrix(before.orientation), load.stream))
+    moved = subtract(before.body_velocity, load.stream)
+    moving = subtract(after.body_velocity, stream)
+    part = math.sqrt((was + dot(moved, multiply(mass, moved))) / (
+        is_now + dot(moving, multiply(mass, moving)) + 1e-300))
+    return Motion(after.position, after.orientation, add_scaled(stream, part, moving),
+                  scale(part, turned))
+
+
+@compiled
+def solve_implicit(mass, inertia, damping, up, k, lever, K, h, force, torque):
     """
     Return a of (M + h C + h^2 K+) a = (force, torque), by blocks.
 
-    With F = m 1 + h diag(linear) + h^2 k up up^T, B = h [S x] + h^2 l up^T, h e added in (z, y),
+    With F = m + h diag(linear) + h^2 k up up^T, B = h [S x] + h^2 l up^T, h e added in (z, y),
     T = I + h D + h^2 K: (T - B F^-1 B^T) a_w = torque - B F^-1 force, then
     a_v = F^-1 (force - B^T a_w).
     """
-    m, hh = boat.mass, h * h
-    F = add_scaled_matrix(diagonal((m, m, m)), h, diagonal(damping.linear))
+    hh = h * h
+    F = add_scaled_matrix(diagonal(mass), h, diagonal(damping.linear))
     F = factor(add_scaled_matrix(F, hh * k, outer(up)))
-    T = add_scaled_matrix(add_scaled_matrix(six(boat.inertia), h, damping.angular), hh, K)
+    T = add_scaled_matrix(add_scaled_matrix(inertia, h, damping.angular), hh, K)
     sx, sy, sz = scale(h, damping.coupling)
     lx, ly, lz = scale(hh, lever)
     # The rows of B.

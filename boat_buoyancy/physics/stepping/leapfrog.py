@@ -14,12 +14,12 @@
 
 """Leapfrog, the default: kick, drift, kick (Stoermer-Verlet), damping by Crank-Nicolson."""
 
+from .arrival import arrival
 from .equations_of_motion import damped_accelerations, net_wrench
-from .free_rotation import free_rotation
+from .free_motion import free_motion
 from ..boat.state import Motion
 from ..compiled import compiled
-from ..forces.load import at_speed, load_at
-from ..rotation import rotation_matrix, to_body, to_world
+from ..forces.load import at_speed
 from ..vectors import add, add_scaled, scale
 
 
@@ -33,14 +33,13 @@ def leapfrog(boat, hull, sea, waves, motion, load, thrust, t, h):
     """
     body_velocity, spin = kick(boat, load, thrust, motion.body_velocity,
                                motion.angular_velocity, 0.5 * h)
-    velocity = to_world(rotation_matrix(motion.orientation), body_velocity)
-    position = add_scaled(motion.position, h, velocity)
-    orientation, spin = free_rotation(boat, motion.orientation, spin, h)
+    motion = free_motion(boat, load, Motion(
+        motion.position, motion.orientation, body_velocity, spin), h)
 
-    load = load_at(boat, hull, sea, waves, position, orientation, t + h)
-    body_velocity = to_body(rotation_matrix(orientation), velocity)
-    body_velocity, spin = kick(boat, load, thrust, body_velocity, spin, 0.5 * h)
-    return Motion(position, orientation, body_velocity, spin), load
+    motion, load = arrival(boat, hull, sea, waves, motion, load, t + h)
+    body_velocity, spin = kick(boat, load, thrust, motion.body_velocity, motion.angular_velocity,
+                               0.5 * h)
+    return Motion(motion.position, motion.orientation, body_velocity, spin), load
 
 
 @compiled
@@ -56,6 +55,6 @@ def kick(boat, load, thrust, body_velocity, spin, dt):
         damping, force, torque = at_speed(
             boat, load, scale(0.5, add(body_velocity, after[0])), scale(0.5, add(spin, after[1])))
         force, torque = net_wrench(damping, force, torque, thrust, body_velocity, spin)
-        acceleration, spin_up = damped_accelerations(boat, damping, 0.5 * dt, force, torque)
+        acceleration, spin_up = damped_accelerations(boat, load, damping, 0.5 * dt, force, torque)
         after = add_scaled(body_velocity, dt, acceleration), add_scaled(spin, dt, spin_up)
     return after

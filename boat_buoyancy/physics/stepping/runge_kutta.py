@@ -14,6 +14,7 @@
 
 """Classic fourth-order Runge-Kutta, for smooth motion to high accuracy."""
 
+from .arrival import arrival
 from .rates import add_rates, moved, rate_of
 from ..compiled import compiled
 from ..forces.load import load_at
@@ -31,10 +32,10 @@ def rk4(boat, hull, sea, waves, motion, load, thrust, t, h):
     second order.
     """
     k = total = rate_of(boat, load, thrust, motion)
+    start = load
     for part, weight in STAGES:
         stage = moved(motion, k, part * h)
         load = load_at(boat, hull, sea, waves, stage.position, stage.orientation, t + part * h)
         k = rate_of(boat, load, thrust, stage)
         total = add_rates(total, weight, k)
-    motion = moved(motion, total, h / 6.0)
-    return motion, load_at(boat, hull, sea, waves, motion.position, motion.orientation, t + h)
+    return arrival(boat, hull, sea, waves, moved(motion, total, h / 6.0), start, t + h)
