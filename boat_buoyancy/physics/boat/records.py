@@ -29,15 +29,15 @@ from .hull import LAWS
 
 # Mass kg and weight N; symmetric matrices are xx, yy, zz, xy, xz, yz.  ``moments`` in rising
 # order, their axes the unit vectors ``axis_1`` to ``axis_3``.  Damping: ``probe_damping`` N s/m
-# over all probes; retention in water and in air, force N/(m/s) on the diagonal and torque
-# N m/(rad/s) as a matrix; ``linear`` and ``quadratic`` as `Damping`; drag in the air of surge and
-# sway, and how far m ahead that of sway acts; whether any drag is quadratic.  Of a hull of panels
-# how many corners and triangles, rho g in N/m^3, most lift N, and how far m its farthest corner
-# is; else 0.
+# over all probes on each axis; retention in water and in air, force N/(m/s) on the diagonal and
+# torque N m/(rad/s) as a matrix; ``linear`` and ``quadratic`` as `Damping`; drag in the air of
+# surge and sway, and how far m ahead that of sway acts; whether any drag is quadratic.  Of a hull
+# of panels how many corners and triangles, rho g in N/m^3, most lift N, and how far m its farthest
+# corner is; else 0.
 BOAT = np.dtype([
     ('mass', 'f8'), ('weight', 'f8'), ('center_of_mass', 'f8', 3), ('inertia', 'f8', 6),
     ('moments', 'f8', 3), ('axis_1', 'f8', 3), ('axis_2', 'f8', 3), ('axis_3', 'f8', 3),
-    ('law', 'i8'), ('probe_damping', 'f8'),
+    ('law', 'i8'), ('probe_damping', 'f8', 3),
     ('water_retention', 'f8', 3), ('water_spin_retention', 'f8', 6),
     ('air_retention', 'f8', 3), ('air_spin_retention', 'f8', 6),
     ('linear', 'f8', 6), ('quadratic', 'f8', 6), ('wind_drag', 'f8', 2), ('wind_arm', 'f8'),
@@ -76,7 +76,7 @@ def boat_record(boat):
     reach = np.linalg.norm(corners, axis=0).max(initial=0.0)
     return np.array((
         boat.mass, boat.weight, boat.center_of_mass, symmetric(boat.inertia),
-        moments, *axes.T, LAWS.index(hull.law), damping.probe,
+        moments, *axes.T, LAWS.index(hull.law), np.broadcast_to(damping.probe, (3,)),
         np.diag(water)[:3], symmetric(water[3:, 3:]), np.diag(air)[:3], symmetric(air[3:, 3:]),
         damping.linear, damping.quadratic, damping.wind[:2], damping.wind_arm,
         damping.quadratic.any() or damping.wind.any(), corners.shape[1], triangles.shape[1],

@@ -212,8 +212,8 @@ def levelled(matrix, state):
 
 def damping_matrix(damping):
     """Return C (6, 6) of a `DampingMatrix`: force and torque are -C (v, w)."""
-    x, y, z = damping.coupling
+    xy, xz, yx, yz, zx, zy = damping.coupling
+    turning = np.array([[0.0, xy, xz], [yx, 0.0, yz], [zx, zy, 0.0]])
     xx, yy, zz, xy, xz, yz = damping.angular
-    turning = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x + damping.sway_yaw, 0.0]])
     return np.block([[np.diag(damping.linear), turning.T],
                      [turning, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])]])

@@ -24,7 +24,7 @@ from ..forces.buoyancy import lift_stiffness
 from ..forces.load import at_speed, load_at
 from ..rotation import rotation_matrix, to_body, to_world
 from ..vectors import (add_scaled, add_scaled_matrix, diagonal, dot, factor, outer, scale,
-                       six, solve_factored, subtract, times)
+                       scale_matrix, six, solve_factored, subtract, times)
 
 
 @compiled
@@ -66,20 +66,20 @@ def solve_implicit(boat, damping, up, k, lever, K, h, force, torque):
     """
     Return a of (M + h C + h^2 K+) a = (force, torque), by blocks.
 
-    With F = m 1 + h diag(linear) + h^2 k up up^T, B = h [S x] + h^2 l up^T, h e added in (z, y),
-    T = I + h D + h^2 K: (T - B F^-1 B^T) a_w = torque - B F^-1 force, then
+    With F = m 1 + h diag(linear) + h^2 k up up^T, B = h coupling + h^2 l up^T,
+    T = I + h angular + h^2 K: (T - B F^-1 B^T) a_w = torque - B F^-1 force, then
     a_v = F^-1 (force - B^T a_w).
     """
     m, hh = boat.mass, h * h
     F = add_scaled_matrix(diagonal((m, m, m)), h, diagonal(damping.linear))
     F = factor(add_scaled_matrix(F, hh * k, outer(up)))
     T = add_scaled_matrix(add_scaled_matrix(six(boat.inertia), h, damping.angular), hh, K)
-    sx, sy, sz = scale(h, damping.coupling)
+    xy, xz, yx, yz, zx, zy = scale_matrix(h, damping.coupling)
     lx, ly, lz = scale(hh, lever)
     # The rows of B.
-    bx = add_scaled((0.0, -sz, sy), lx, up)
-    by = add_scaled((sz, 0.0, -sx), ly, up)
-    bz = add_scaled((-sy, sx + h * damping.sway_yaw, 0.0), lz, up)
+    bx = add_scaled((0.0, xy, xz), lx, up)
+    by = add_scaled((yx, 0.0, yz), ly, up)
+    bz = add_scaled((zx, zy, 0.0), lz, up)
     fx, fy, fz = solve_factored(F, bx), solve_factored(F, by), solve_factored(F, bz)
     T = add_scaled_matrix(T, -1.0, (dot(bx, fx), dot(by, fy), dot(bz, fz),
                                     dot(bx, fy), dot(bx, fz), dot(by, fz)))

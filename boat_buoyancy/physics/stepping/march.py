@@ -16,7 +16,7 @@
 The step of many boats by many periods, in one call: what is compiled.
 
 What changes of a boat are rows of floats (arrays when compiled, lists in plain Python): the state
-(13), the load (25) at its place and time, and what a `HullView` has of it.
+(13), the load (28) at its place and time, and what a `HullView` has of it.
 """
 
 import numpy as np
@@ -36,7 +36,7 @@ from ..vectors import cross, subtract, three
 # Hz of periods, and the bound that the guard holds its speed to.
 PACE = np.dtype([('sea', 'i8'), ('panels', 'i8'), ('substeps', 'i8'), ('rate', 'f8'),
                  ('bound', BOUND)])
-STATE_SIZE, LOAD_SIZE = 13, 25
+STATE_SIZE, LOAD_SIZE = 13, 28
 
 
 @compiled
@@ -134,21 +134,22 @@ def write_motion(motion, row):
 
 @compiled
 def read_load(row):
-    """Return the `Load` of a row (25)."""
-    damping = DampingMatrix((row[6], row[7], row[8]), (row[9], row[10], row[11]),
-                            (row[12], row[13], row[14], row[15], row[16], row[17]), 0.0)
-    return Load((row[0], row[1], row[2]), (row[3], row[4], row[5]), damping, row[18],
-                (row[19], row[20], row[21]), (row[22], row[23], row[24]))
+    """Return the `Load` of a row (28)."""
+    damping = DampingMatrix((row[6], row[7], row[8]),
+                            (row[9], row[10], row[11], row[12], row[13], row[14]),
+                            (row[15], row[16], row[17], row[18], row[19], row[20]))
+    return Load((row[0], row[1], row[2]), (row[3], row[4], row[5]), damping, row[21],
+                (row[22], row[23], row[24]), (row[25], row[26], row[27]))
 
 
 @compiled
 def write_load(load, row):
-    """Write a `Load` to a row (25), but ``sway_yaw``: it is 0 before there is a speed."""
+    """Write a `Load` to a row (28)."""
     row[0], row[1], row[2] = load.force
     row[3], row[4], row[5] = load.torque
     row[6], row[7], row[8] = load.damping.linear
-    row[9], row[10], row[11] = load.damping.coupling
-    row[12], row[13], row[14], row[15], row[16], row[17] = load.damping.angular
-    row[18] = load.wetness
-    row[19], row[20], row[21] = load.water
-    row[22], row[23], row[24] = load.wind
+    row[9], row[10], row[11], row[12], row[13], row[14] = load.damping.coupling
+    row[15], row[16], row[17], row[18], row[19], row[20] = load.damping.angular
+    row[21] = load.wetness
+    row[22], row[23], row[24] = load.water
+    row[25], row[26], row[27] = load.wind
