@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Sine and cosine for the step: to round-off, and so that a loop over waves becomes vector code.
+Sine, cosine and decay for the step: to round-off, and so that loops over waves become vector code.
 
 Argument reduction by Cody and Waite (Software Manual for the Elementary Functions, 1980) and the
 polynomials of Cephes, without a branch.
@@ -63,3 +63,20 @@ def sine_cosine(angle):
     sine, cosine = c if odd else s, s if odd else c
     return (-sine if quadrant > 1.5 else sine,
             -cosine if 0.5 < quadrant < 2.5 else cosine)
+
+
+@compiled(arithmetic=FUSED)
+def decay(x):
+    """Return e^x of x <= 0, to 1e-11 of it down to e^-20: (e^(x / 64))^64, by its series."""
+    r = max(x, -40.0) * (1.0 / 64.0)
+    z = r * r
+    zz = z * z
+    e = ((1.0 + r) + z * (1.0 / 2.0 + r * (1.0 / 6.0)) + zz * (
+        (1.0 / 24.0 + r * (1.0 / 120.0)) + z * (1.0 / 720.0 + r * (1.0 / 5040.0)) + zz * (
+            (1.0 / 40320.0 + r * (1.0 / 362880.0)) + z * (1.0 / 3628800.0))))
+    e *= e
+    e *= e
+    e *= e
+    e *= e
+    e *= e
+    return e * e

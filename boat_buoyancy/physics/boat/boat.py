@@ -93,7 +93,10 @@ class Boat:
 
     Main arguments: ``mass`` kg; ``hull`` a `Hull`; ``inertia`` (3, 3) kg m^2 about the centre of
     mass, off-diagonals -integral(xy dm) as in URDF; ``damping`` a `Damping`.
-    Other arguments: ``center_of_mass`` (3,) m in the body frame; ``gravity`` m/s^2.
+    Other arguments: ``center_of_mass`` (3,) m in the body frame; ``gravity`` m/s^2;
+    ``added_mass`` (6,) kg and kg m^2 about the centre of mass, body axes, all wet; ``immersion``
+    (n,) m, how deep the probes are at rest, down to where waves die out: with it the wave force
+    is that of Froude and Krylov, without it hydrostatic.
     """
 
     mass: float
@@ -102,6 +105,8 @@ class Boat:
     damping: Damping = field(default_factory=Damping)
     center_of_mass: ArrayLike = (0.0, 0.0, 0.0)
     gravity: float = 9.81
+    added_mass: ArrayLike = (0.0,) * 6
+    immersion: ArrayLike = ()
 
     def __post_init__(self):
         """Store checked, read-only arrays."""
@@ -110,6 +115,10 @@ class Boat:
         object.__setattr__(self, 'center_of_mass', checks.vector(
             'boat.center_of_mass', self.center_of_mass, 3))
         object.__setattr__(self, 'inertia', checked_inertia(self.inertia))
+        object.__setattr__(self, 'added_mass', checks.vector(
+            'added_mass', self.added_mass, 6, at_least=0.0))
+        object.__setattr__(self, 'immersion', checks.vector(
+            'immersion', self.immersion, 0, len(self.hull.share), at_least=0.0))
 
     def __getstate__(self):
         """Leave out what is derived; it is made again when it is asked for."""
@@ -130,6 +139,11 @@ class Boat:
     def weight(self) -> float:
         """Return m g in N."""
         return self.mass * self.gravity
+
+    @property
+    def follows_waves(self) -> bool:
+        """Return whether the wave force is that of Froude and Krylov."""
+        return len(self.immersion) > 0
 
     @property
     def floatiness(self) -> float:
@@ -194,20 +208,13 @@ class Boat:
 
     @cached_property
     def principal(self) -> tuple[np.ndarray, np.ndarray]:
-        """
-        Return the principal moments (3,) in rising order and their axes, columns of (3, 3).
+        """Return the principal moments and axes of the inertia, see `principal_axes`."""
+        return principal_axes(self.inertia)
 
-        The axes are right-handed, and exact where they are those of the body.
-        """
-        moments = np.diag(self.inertia)
-        if (self.inertia - np.diag(moments)).any():
-            moments, axes = np.linalg.eigh(self.inertia)
-        else:
-            order = np.argsort(moments, kind='stable')
-            moments, axes = moments[order], np.eye(3)[:, order]
-        if np.linalg.det(axes) < 0:
-            axes = axes * [1.0, 1.0, -1.0]
-        return moments, axes
+    @cached_property
+    def wet_principal(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return those of the inertia with all of the added mass, see `principal_axes`."""
+        return principal_axes(self.mass_matrix_at(1.0)[3:, 3:])
 
     @cached_property
     def mass_matrix(self) -> np.ndarray:
@@ -216,6 +223,10 @@ class Boat:
         matrix[:3, :3] = self.mass * np.eye(3)
         matrix[3:, 3:] = self.inertia
         return matrix
+
+    def mass_matrix_at(self, wetness: float) -> np.ndarray:
+        """Return (6, 6), the mass matrix with the added mass of a wetness 0 to 1."""
+        return self.mass_matrix + np.diag(wetness * self.added_mass)
 
     @cached_property
     def retention_damping(self) -> np.ndarray:
@@ -232,6 +243,23 @@ class Boat:
             matrix[:3, :3] = self.mass * np.diag(rates[:3])
             matrix[3:, 3:] = root @ np.diag(rates[3:]) @ root
         return matrices
+
+
+def principal_axes(inertia):
+    """
+    Return the principal moments (3,) of a tensor in rising order, and their axes (3, 3), columns.
+
+    The axes are right-handed, and exact where they are those of the body.
+    """
+    moments = np.diag(inertia)
+    if (inertia - np.diag(moments)).any():
+        moments, axes = np.linalg.eigh(inertia)
+    else:
+        order = np.argsort(moments, kind='stable')
+        moments, axes = moments[order], np.eye(3)[:, order]
+    if np.linalg.det(axes) < 0:
+        axes = axes * [1.0, 1.0, -1.0]
+    return moments, axes
 
 
 def checked_inertia(inertia):

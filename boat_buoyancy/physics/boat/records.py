@@ -29,15 +29,15 @@ from .hull import LAWS
 
 # Mass kg and weight N; symmetric matrices are xx, yy, zz, xy, xz, yz.  ``moments`` in rising
 # order, their axes the unit vectors ``axis_1`` to ``axis_3``.  Damping: ``probe_damping`` N s/m
-# over all probes; retention in water and in air, force N/(m/s) on the diagonal and torque
-# N m/(rad/s) as a matrix; ``linear`` and ``quadratic`` as `Damping`; drag in the air of surge and
-# sway, and how far m ahead that of sway acts; whether any drag is quadratic.  Of a hull of panels
-# how many corners and triangles, rho g in N/m^3, most lift N, and how far m its farthest corner
-# is; else 0.
+# over all probes on each axis; retention in water and in air, force N/(m/s) on the diagonal and
+# torque N m/(rad/s) as a matrix; ``linear`` and ``quadratic`` as `Damping`; drag in the air of
+# surge and sway, and how far m ahead that of sway acts; whether any drag is quadratic.  Of a hull
+# of panels how many corners and triangles, rho g in N/m^3, most lift N, and how far m its farthest
+# corner is; else 0.
 BOAT = np.dtype([
     ('mass', 'f8'), ('weight', 'f8'), ('center_of_mass', 'f8', 3), ('inertia', 'f8', 6),
     ('moments', 'f8', 3), ('axis_1', 'f8', 3), ('axis_2', 'f8', 3), ('axis_3', 'f8', 3),
-    ('law', 'i8'), ('probe_damping', 'f8'),
+    ('law', 'i8'), ('probe_damping', 'f8', 3),
     ('water_retention', 'f8', 3), ('water_spin_retention', 'f8', 6),
     ('air_retention', 'f8', 3), ('air_spin_retention', 'f8', 6),
     ('linear', 'f8', 6), ('quadratic', 'f8', 6), ('wind_drag', 'f8', 2), ('wind_arm', 'f8'),
@@ -76,19 +76,34 @@ class HullView(NamedTuple):
 def boat_record(boat):
     """Return a `Boat` as a record of `BOAT`."""
     water, air = boat.retention_damping
-    moments, axes = principal(boat.inertia)
-    _, wet_axes = principal(boat.inertia + np.diag(boat.added_mass[3:]))
-    middle, away = waterplane(boat)
+    (moments, axes), (_, wet_axes) = boat.principal, boat.wet_principal
+    middle, _, spread = waterplane(boat)
     damping, hull, (corners, triangles) = boat.damping, boat.hull, boat.panel_rows
     reach = np.linalg.norm(corners, axis=0).max(initial=0.0)
     return np.array((
         boat.mass, boat.weight, boat.center_of_mass, symmetric(boat.inertia),
-        moments, *axes.T, LAWS.index(hull.law), damping.probe,
+        moments, *axes.T, LAWS.index(hull.law), np.broadcast_to(damping.probe, (3,)),
         np.diag(water)[:3], symmetric(water[3:, 3:]), np.diag(air)[:3], symmetric(air[3:, 3:]),
         damping.linear, damping.quadratic, damping.wind[:2], damping.wind_arm,
         damping.quadratic.any() or damping.wind.any(), boat.added_mass, boat.added_mass.any(),
-        *wet_axes.T, boat.follows_waves, middle, *waterplane_spread, corners.shape[1], triangles.shape[1],
+        *wet_axes.T, boat.follows_waves, middle, *spread, corners.shape[1], triangles.shape[1],
         hull.specific_weight, hull.max_lift, reach), BOAT)
+
+
+def waterplane(boat):
+    """
+    Return what the probes tell of a waterplane, all by their shares.
+
+    Its middle (2,) m from the centre of mass, the probes (n, 2) m from there, and 1/m^2, one over
+    their mean squares across, along and both; 0 where all stand in a line.
+    """
+    places, share = boat.probe_offsets[:, :2], boat.hull.share
+    middle = share @ places
+    away = places - middle
+    xx, yy = share @ away ** 2
+    squares = np.array([yy, xx, xx + yy])
+    real = squares > 1e-12 * (xx + yy)
+    return middle, away, np.where(real, 1.0 / np.where(real, squares, 1.0), 0.0)
 
 
 def probe_records(boat):
@@ -98,6 +113,7 @@ def probe_records(boat):
     records['x'], records['y'], records['z'] = boat.probe_offsets.T
     records['max_force'], records['height'], records['share'] = (
         hull.max_force, hull.height, hull.share)
+    records['along'], records['across'] = waterplane(boat)[1].T
     return records
 
 
@@ -110,13 +126,18 @@ def panel_rows(boat):
 
 
 def hull_view(boat, plain):
-    """Return the `HullView` of a `Boat`: arrays, or lists and named tuples for plain Python."""
+    """
+    Return the `HullView` of a `Boat` in still water.
+
+    Arrays, or lists and named tuples for plain Python.
+    """
     corners, triangles = boat.panel_rows
-    depths, places = np.zeros(len(boat.hull.share)), np.zeros((4, corners.shape[1]))
+    depths, places = np.zeros(len(boat.hull.share)), np.zeros((5, corners.shape[1]))
+    still = np.zeros((len(depths), 4, 0))
     if plain:
-        return HullView(boat.plain_records[1], *boat.plain_records[2:], depths.tolist(),
-                        places.tolist())
-    return HullView(boat.probe_records, corners, triangles, depths, places)
+        return HullView(boat.plain_records[1], *boat.plain_records[2:], still.tolist(),
+                        depths.tolist(), places.tolist())
+    return HullView(boat.probe_records, corners, triangles, still, depths, places)
 
 
 def symmetric(matrix):

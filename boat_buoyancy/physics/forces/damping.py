@@ -23,8 +23,8 @@ can treat it its own way: the wrench is -C (u - u_water).  `load` sums it over t
 from typing import NamedTuple
 
 from ..compiled import compiled
-from ..vectors import (add, add_scaled, add_scaled_matrix, cross, diagonal, multiply, scale,
-                       scale_matrix, six, subtract, three, times)
+from ..vectors import (add, add_scaled, add_scaled_matrix, diagonal, multiply, scale, scale_matrix,
+                       six, subtract, three, times)
 
 # Damping comes in over this part of a probe's height: a jump at entry would leave every
 # integrator at first order.
@@ -35,22 +35,22 @@ class DampingMatrix(NamedTuple):
     """
     A symmetric 6 x 6 damping matrix about the centre of mass, body axes, as what is not zero.
 
-    force = -linear v - w x S, torque = -S x v - angular w: ``linear`` (3) N/(m/s), ``coupling``
-    (3) S in N m/(m/s), ``angular`` (6) N m/(rad/s).  Damping points are to velocity what mass
-    points are to acceleration: S = sum c r, angular = sum c (r.r 1 - r r^T).  ``sway_yaw`` e
-    N m/(m/s) is for a point ahead that damps sway alone: force -e w_z in y, torque -e v_y in z.
+    force = -linear v - B^T w, torque = -B v - angular w: ``linear`` (3) N/(m/s); ``coupling`` (6)
+    N m/(m/s), B without its diagonal, xy, xz, yx, yz, zx, zy: of the torque about the first axis
+    per speed along the second; ``angular`` (6) N m/(rad/s).  Points at r that damp by c on each
+    body axis add up to linear = sum c, B = sum [r x] diag(c), angular = sum [r x] diag(c) [r x]^T.
     """
 
     linear: tuple
     coupling: tuple
     angular: tuple
-    sway_yaw: float
 
 
 @compiled
 def no_damping():
     """Return the matrix of nothing, to add to."""
-    return DampingMatrix((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)
+    zero = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return DampingMatrix((0.0, 0.0, 0.0), zero, zero)
 
 
 @compiled
@@ -61,25 +61,26 @@ def ramped(wet):
 
 @compiled
 def probe_damping(boat, probe, s):
-    """Return c_i = c w_i / sum w, times s: N s/m of one probe, whose force is -c_i (v_i - w_i)."""
-    return boat.probe_damping * probe.share * s
+    """Return c_i = c w_i / sum w, times s: (3) N s/m of a probe, whose force is -c_i (v_i - w_i)."""
+    return scale(s, scale(probe.share, three(boat.probe_damping)))
 
 
 @compiled
 def with_point(damping, c, r):
-    """Return the damping matrix with a point added at r that gives -c (v + w x r)."""
-    x, y, z = r
+    """Return the damping matrix with a point added at r that gives -c (v + w x r), c (3)."""
+    (x, y, z), (a, b, c), (xy, xz, yx, yz, zx, zy) = r, c, damping.coupling
+    ay, az, bx, bz, cx, cy = a * y, a * z, b * x, b * z, c * x, c * y
     return DampingMatrix(
-        add(damping.linear, (c, c, c)), add_scaled(damping.coupling, c, r),
-        add_scaled_matrix(damping.angular, c, (y * y + z * z, x * x + z * z, x * x + y * y,
-                                               -x * y, -x * z, -y * z)), damping.sway_yaw)
+        add(damping.linear, (a, b, c)), (xy - bz, xz + cy, yx + az, yz - cx, zx - ay, zy + bx),
+        add_scaled_matrix(damping.angular, 1.0, (
+            cy * y + bz * z, cx * x + az * z, bx * x + ay * y, -cx * y, -bx * z, -ay * z)))
 
 
 @compiled
 def with_body(damping, drag, spin_drag):
     """Return the damping matrix with drag (3) and spin drag (6) of the whole body added."""
     return DampingMatrix(add(damping.linear, drag), damping.coupling,
-                         add_scaled_matrix(damping.angular, 1.0, spin_drag), damping.sway_yaw)
+                         add_scaled_matrix(damping.angular, 1.0, spin_drag))
 
 
 @compiled
@@ -126,7 +127,19 @@ def with_quadratic_drag(boat, load, body_velocity, angular_velocity):
 def damping_wrench(damping, body_velocity, angular_velocity):
     """Return C u: the force and torque that damping takes at a velocity, body axes."""
     v, w = body_velocity, angular_velocity
-    drag = add(multiply(damping.linear, v), cross(w, damping.coupling))
-    spin_drag = add(cross(damping.coupling, v), times(damping.angular, w))
-    return (add(drag, (0.0, damping.sway_yaw * w[2], 0.0)),
-            add(spin_drag, (0.0, 0.0, damping.sway_yaw * v[1])))
+    return (add(multiply(damping.linear, v), coupled_force(damping.coupling, w)),
+            add(coupled_torque(damping.coupling, v), times(damping.angular, w)))
+
+
+@compiled
+def coupled_force(coupling, w):
+    """Return B^T w, see `DampingMatrix`."""
+    xy, xz, yx, yz, zx, zy = coupling
+    return (yx * w[1] + zx * w[2], xy * w[0] + zy * w[2], xz * w[0] + yz * w[1])
+
+
+@compiled
+def coupled_torque(coupling, v):
+    """Return B v, see `DampingMatrix`."""
+    xy, xz, yx, yz, zx, zy = coupling
+    return (xy * v[1] + xz * v[2], yx * v[0] + yz * v[2], zx * v[0] + zy * v[1])

@@ -34,7 +34,7 @@ from ..compiled import compiled
 from ..rotation import rotation_matrix, to_body, to_world
 from ..sea.fading import current, ramp
 from ..sea.waves import surface
-from ..vectors import add, add_scaled, cross, multiply, scale, times, ZERO
+from ..vectors import add, add_scaled, cross, multiply, times, ZERO
 
 
 class Load(NamedTuple):
@@ -106,7 +106,7 @@ def load_at(boat, hull, sea, waves, position, orientation, t):
         # The probe's own damping pulls along with the water.
         flow = to_body(R, add(orbital, stream))
         c = probe_damping(boat, probe, s)
-        pull = scale(c, flow)
+        pull = multiply(c, flow)
         force, torque = add(force, pull), add(torque, cross(r, pull))
         damping = with_point(damping, c, r)
         water = add_scaled(water, probe.share, flow)

@@ -29,7 +29,7 @@ from ..sea.waves import add_elevation
 from ..vectors import add, add_scaled, add_scaled_matrix, outer, scale, scale_matrix
 
 # The rows of `HullView.places`, and what a corner is read as.
-X, Y, Z, DEPTH = range(4)
+X, Y, Z, DEPTH, HEAD = range(5)
 
 
 @compiled
@@ -58,18 +58,25 @@ def pressure(boat, hull, sea, waves, R, position, t, weight):
 @compiled
 def place_corners(boat, hull, sea, waves, R, position, t, weight):
     """Write where the corners are in the world, from the centre of mass, and how deep."""
+    corner_places(boat, hull, R, position)
+    add_elevation(waves, sea.waves, position, hull.places[X], hull.places[Y], boat.corners, t,
+                  weight, hull.places[DEPTH])
+
+
+@compiled
+def corner_places(boat, hull, R, position):
+    """Write where the corners are, and how deep below the mean water."""
     cx, cy, cz = hull.corners[0], hull.corners[1], hull.corners[2]
     x, y, z, depth = hull.places[X], hull.places[Y], hull.places[Z], hull.places[DEPTH]
     for i in range(boat.corners):
         x[i], y[i], z[i] = to_world(R, (cx[i], cy[i], cz[i]))
         depth[i] = -(position[2] + z[i])
-    add_elevation(waves, sea.waves, position, x, y, boat.corners, t, weight, depth)
 
 
 @compiled
 def corner(places, i):
-    """Return x, y, z from the centre of mass and depth, m, of a corner."""
-    return (places[X][i], places[Y][i], places[Z][i], places[DEPTH][i])
+    """Return x, y, z from the centre of mass, depth and head, m, of a corner."""
+    return (places[X][i], places[Y][i], places[Z][i], places[DEPTH][i], places[HEAD][i])
 
 
 @compiled
@@ -97,7 +104,8 @@ def wet_part(places, i, j, k):
 def waterline(a, b):
     """Return where the edge from a to b meets the water."""
     s = a[DEPTH] / (a[DEPTH] - b[DEPTH])
-    return (a[X] + s * (b[X] - a[X]), a[Y] + s * (b[Y] - a[Y]), a[Z] + s * (b[Z] - a[Z]), 0.0)
+    return (a[X] + s * (b[X] - a[X]), a[Y] + s * (b[Y] - a[Y]), a[Z] + s * (b[Z] - a[Z]), 0.0,
+            0.0)
 
 
 @compiled

@@ -20,9 +20,9 @@ The side force acts at a point l ahead of the centre of mass: v_a is taken there
 wind's, and its torque is N |v_a| v_a with N = Y l.  N < 0 turns the bow into the wind.
 """
 
-from .damping import DampingMatrix
+from .damping import with_point
 from ..compiled import compiled
-from ..vectors import add
+from ..vectors import add, cross, multiply
 
 
 @compiled
@@ -41,10 +41,6 @@ def with_air_drag(boat, wind, damping, force, torque, body_velocity, angular_vel
     semi-definite, as that of any damping point.
     """
     u, v = air_speed(boat, wind, body_velocity, angular_velocity)
-    surge, sway, arm = boat.wind_drag[0] * abs(u), boat.wind_drag[1] * abs(v), boat.wind_arm
-    xx, yy, zz, xy, xz, yz = damping.angular
-    damping = DampingMatrix(
-        add(damping.linear, (surge, sway, 0.0)), damping.coupling,
-        (xx, yy, zz + arm * arm * sway, xy, xz, yz), damping.sway_yaw + arm * sway)
-    return (damping, add(force, (surge * wind[0], sway * wind[1], 0.0)),
-            add(torque, (0.0, 0.0, arm * sway * wind[1])))
+    c = (boat.wind_drag[0] * abs(u), boat.wind_drag[1] * abs(v), 0.0)
+    place, pull = (boat.wind_arm, 0.0, 0.0), multiply(c, wind)
+    return with_point(damping, c, place), add(force, pull), add(torque, cross(place, pull))

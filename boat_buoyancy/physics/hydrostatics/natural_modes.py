@@ -54,13 +54,15 @@ class Equilibrium:
     """
     The linear system M a + C u + K x = 0 of a boat at rest in still water.
 
-    All (6, 6): ``mass`` M; ``stiffness`` K; ``surface_stiffness`` K+, every probe at the surface;
-    ``damping`` C at the draft, ``wet_damping`` with every probe under water, ``air_damping`` with
-    none.  ``tilted`` 1/s^2, of a hull of panels the greatest eigenvalue of M^-1 K that its
+    All (6, 6): ``mass`` M, added mass included, at the draft, ``wet_mass`` with every probe under
+    water, ``air_mass`` with none; ``damping`` C likewise; ``stiffness`` K; ``surface_stiffness``
+    K+, every probe at the surface.  ``tilted`` 1/s^2, of a hull of panels the greatest eigenvalue of M^-1 K that its
     waterplane has at any attitude; of others, whose K+ is that of all probes upright, 0.
     """
 
     mass: np.ndarray
+    wet_mass: np.ndarray
+    air_mass: np.ndarray
     stiffness: np.ndarray
     surface_stiffness: np.ndarray
     damping: np.ndarray
@@ -81,12 +83,13 @@ class Equilibrium:
         # Panels have no part in damping, which is that of the probes and of the whole.
         bare = boat if boat.hull.panels is None else replace(
             boat, hull=replace(boat.hull, panels=None))
-        damping = (damping_matrix(still_load(bare, state)[0].damping)
-                   for state in (rest, under_water(boat), in_air(boat)))
-        mass, surface_stiffness, *damping = (
-            levelled(matrix, rest) for matrix in (boat.mass_matrix, surface_stiffness, *damping))
+        loads = [still_load(bare, state)[0] for state in (rest, under_water(boat), in_air(boat))]
+        mass, wet_mass, air_mass, surface_stiffness, *damping = (
+            levelled(matrix, rest) for matrix in (
+                *(boat.mass_matrix_at(load.wetness) for load in loads), surface_stiffness,
+                *(damping_matrix(load.damping) for load in loads)))
         tilted = 0.0 if boat.hull.panels is None else _greatest_tilted(boat.lying)
-        return cls(mass, stiffness, surface_stiffness, *damping, tilted)
+        return cls(mass, wet_mass, air_mass, stiffness, surface_stiffness, *damping, tilted)
 
     @cached_property
     def modes(self):
@@ -103,14 +106,14 @@ class Equilibrium:
     @cached_property
     def highest_frequency(self):
         """Return omega_max in rad/s, see `highest_frequency`."""
-        return float(np.sqrt(max(0.0, _greatest(self.mass, self.surface_stiffness),
+        return float(np.sqrt(max(0.0, _greatest(self.wet_mass, self.surface_stiffness),
                                  _greatest(self.mass, self.stiffness), self.tilted)))
 
     @cached_property
     def highest_damping_rate(self):
         """Return the greatest eigenvalue of M^-1 C in 1/s, all wet or in air."""
-        return max(_greatest(self.mass, self.wet_damping),
-                   _greatest(self.mass, self.air_damping))
+        return max(_greatest(self.wet_mass, self.wet_damping),
+                   _greatest(self.air_mass, self.air_damping))
 
 
 @lru_cache(maxsize=64)
@@ -141,7 +144,7 @@ def _greatest_tilted(boat):
         K[RESTORED, RESTORED] = per_volume * np.array(
             [[area, y, -x], [y, yy, -xy], [-x, -xy, xx]])
         turned = np.kron(np.eye(2), R)
-        found = max(found, _greatest(turned @ boat.mass_matrix @ turned.T, K))
+        found = max(found, _greatest(turned @ boat.mass_matrix_at(1.0) @ turned.T, K))
     return found
 
 
@@ -212,8 +215,8 @@ def levelled(matrix, state):
 
 def damping_matrix(damping):
     """Return C (6, 6) of a `DampingMatrix`: force and torque are -C (v, w)."""
-    x, y, z = damping.coupling
+    xy, xz, yx, yz, zx, zy = damping.coupling
+    turning = np.array([[0.0, xy, xz], [yx, 0.0, yz], [zx, zy, 0.0]])
     xx, yy, zz, xy, xz, yz = damping.angular
-    turning = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x + damping.sway_yaw, 0.0]])
     return np.block([[np.diag(damping.linear), turning.T],
                      [turning, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])]])

@@ -34,6 +34,7 @@ from ..checks import shown
 from ..forces.thrusters import Thruster
 from ..hydrostatics import rest
 from ..hydrostatics.natural_modes import equilibrium_stiffness
+from ..hydrostatics.stiffness import still_load
 from ..rotation import from_roll_pitch_yaw
 from ..sea import spectra
 from ..sea.waves import Sea
@@ -47,7 +48,8 @@ LEAST_BALL = 0.1
 AHEAD, NO_LIMITS = (1.0, 0.0, 0.0), (-1e15, 1e15)
 # The parameters that each part is made of; the start is made of the hull, too. What is given to
 # the functions below is this and no more, so that a name that is missing here is seen at once.
-_PREFIXES = {'hull': ('boat.', 'hull.', 'probes.', 'gravity', 'water_density'),
+_PREFIXES = {'hull': ('boat.', 'hull.', 'probes.', 'gravity', 'water_density', 'added_mass',
+                      'wave_force'),
              'damping': ('damping.', 'wind.drag'), 'sea': ('sea.', 'wind.velocity', 'gravity'),
              'start': ('start.',)}
 MADE_OF = {part: frozenset(name for name in PARAMETERS if name.startswith(prefixes))
@@ -70,7 +72,8 @@ def assembled_boat(in_force, sea, like=None):
     boat, said = _undamped_boat(in_force, sea) if like is None else (like.on(sea), ())
     probe = in_force['damping.probe']
     if probe is None:
-        probe = PROBE_DAMPING_RATIO * 2.0 * math.sqrt(_heave_stiffness(boat) * boat.mass)
+        probe = PROBE_DAMPING_RATIO * 2.0 * math.sqrt(
+            _heave_stiffness(boat) * (boat.mass + boat.added_mass[2]))
     return boat.with_damping(replace(damping, probe=probe)), said
 
 
@@ -92,8 +95,12 @@ def _undamped_boat(in_force, sea):
         if in_force['hull.model'] == 'panels':
             hull = replace(hull, panel_size=in_force['hull.panel_size']).panelled(sea)
     inertia = in_force['boat.inertia']
-    return Boat(mass, hull, estimate if inertia is None else inertia,
-                center_of_mass=center_of_mass, gravity=gravity), said
+    boat = Boat(mass, hull, estimate if inertia is None else inertia, gravity=gravity,
+                center_of_mass=center_of_mass, added_mass=in_force['added_mass'])
+    if in_force['wave_force'] == 'froude_krylov':
+        depths = still_load(boat, rest.rest_state(boat))[1]
+        boat = replace(boat, immersion=np.maximum(depths, 0.0))
+    return boat, said
 
 
 def _probe_hull(in_force, weight):

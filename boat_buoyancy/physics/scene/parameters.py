@@ -27,7 +27,7 @@ from ..boat.shapes import SHAPES
 from ..sea.waves import MAX_COMPONENTS
 from ..stepping.integrators import INTEGRATORS
 
-MODELS = ('columns', 'panels')
+MODELS, WAVE_FORCES = ('columns', 'panels'), ('hydrostatic', 'froude_krylov')
 # The kinds of waves that a sea can be asked for, one at a time: the parameters of each.
 WAVE_KINDS = (('sea.waves',), ('sea.sea_state',), ('sea.significant_height', 'sea.peak_period'))
 NODE_NAME = 'boat_buoyancy'
@@ -198,6 +198,15 @@ def _table():
         Parameter('damping.quadratic', 'float_array', (0.0,) * 6, 'N/(m/s)², N·m/(rad/s)²',
                   'Drag per speed squared in surge, sway, heave, roll, pitch, yaw. Higher is '
                   'slower at high speed.', at_least=0.0, at_most=1e15, lengths=(6,)),
+        Parameter('added_mass', 'float_array', (0.0,) * 6, 'kg, kg·m²',
+                  'Mass of the water that moves along in surge, sway, heave, roll, pitch, yaw, all '
+                  'wet, about the centre of mass; for waves together with wave_force: '
+                  'froude_krylov. Higher moves more slowly.', at_least=0.0, at_most=1e18,
+                  lengths=(6,)),
+        Parameter('wave_force', 'string', 'hydrostatic', '',
+                  'hydrostatic, straight up by the surface above; or froude_krylov, the pressure '
+                  'of the waves: dies out with depth, pushes along the slope, and takes the boat '
+                  'along with the water.', choices=WAVE_FORCES, **fixed),
         Parameter('sea.waves', 'float_array', None, 'm, s, rad, rad',
                   'Waves, rows of four in one flat list: amplitude, period, direction they go '
                   'to (counter-clockwise from x), phase; without it none. Higher amplitudes are '

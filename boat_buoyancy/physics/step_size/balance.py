@@ -101,7 +101,7 @@ def at_rest(boat: Boat) -> Balance:
         boat = replace(boat, gravity=lift / boat.mass, center_of_mass=boat.center_of_mass + moved)
     balance = Balance(boat, state, min(float(boat.hull.height.min()),
                                        max(map(abs, depths.tolist()))))
-    mass = levelled(boat.mass_matrix, state)
+    mass = levelled(boat.mass_matrix_at(load.wetness), state)
     squared = np.linalg.eigvals(np.linalg.inv(mass)[RESTORED, RESTORED] @ stiffness(balance)).real
     # What is no more than that neither rights nor upsets the boat.
     nothing = balance.round_off * np.abs(squared).max()

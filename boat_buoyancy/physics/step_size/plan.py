@@ -172,7 +172,7 @@ def _creeping(boat, rest):
     heave = rest.modes['heave'].angular_frequency
     if heave is None:
         return ()
-    critical = 2.0 * boat.mass * heave
+    critical = 2.0 * rest.mass[2, 2] * heave
     ratio = boat.damping.probe / critical
     if ratio < HEAVY_DAMPING:
         return ()

@@ -33,6 +33,7 @@ from ..boat.hull import LAWS
 from ..boat.records import readable
 from ..compiled import compile_now
 from ..forces.probe_laws import wetting
+from ..forces.wave_force import wave_decay
 from ..rotation import rotation_matrix
 
 NO_THRUST, NO_TRACK = np.zeros((1, 6)), np.empty((0, 0))
@@ -160,8 +161,8 @@ class Engine:
 
     def _part(self, boats):
         """Return records and memory of a slice of the boats, for `march`."""
-        fleet, probes, corners, triangles, seas, waves, paces = self._records
-        return (fleet[boats], probes[boats], corners, triangles, seas, waves, paces[boats],
+        fleet, probes, corners, triangles, decays, seas, waves, paces = self._records
+        return (fleet[boats], probes[boats], corners, triangles, decays, seas, waves, paces[boats],
                 *(values[boats] for values in self._memory))
 
     def _advance_plain(self, thrust, by_boat, by_period, first, periods, track, depth_track):
@@ -199,18 +200,21 @@ class Engine:
 
     def _set_records(self):
         """Write boats and seas as the records of `march`."""
-        seas, sea_of = different(self.seas)
-        panelled, panels_of = different(self.boats)
+        seas, sea_of = different(map(id, self.seas))
+        panelled, panels_of = different(map(id, self.boats))
+        dying, decay_of = different((boat.immersion.tobytes(), number) if boat.follows_waves
+                                    else () for boat, number in zip(self.boats, sea_of))
         bounds = [SpeedBound.of(boat, sea) for boat, sea in zip(self.boats, self.seas)]
         paces = np.array([(*pace, self.rate, bound.record.item()) for *pace, bound in zip(
-            sea_of, panels_of, self.substeps, bounds)], PACE)
+            sea_of, panels_of, decay_of, self.substeps, bounds)], PACE)
         records = (
             np.array([boat.record for boat in self.boats]),
             np.array([boat.probe_records for boat in self.boats]),
             *map(padded, zip(*(self.boats[i].panel_rows for i in panelled))),
+            padded([decay_of_waves(self.boats[i], self.seas[i]) for i in dying]),
             np.array([self.seas[i].record for i in seas]),
             padded([self.seas[i].table for i in seas]), paces)
-        places = np.zeros((len(self.boats), 4, records[2].shape[2]))
+        places = np.zeros((len(self.boats), 5, records[2].shape[2]))
         self._places = places.tolist() if self.is_plain else places
         self._records = tuple(map(readable, records)) if self.is_plain else records
         self._bounds = bounds
@@ -226,21 +230,27 @@ class Engine:
                                        slowest_reached(bound, 1.0 / self.rate))
 
 
-def different(things):
-    """Return the places of the first of each different thing, and which of them each one is."""
+def different(keys):
+    """Return the places of the first of each different key, and which of them each one is."""
     first = {}
-    which = [first.setdefault(id(thing), (len(first), place))[0]
-             for place, thing in enumerate(things)]
+    which = [first.setdefault(key, (len(first), place))[0] for place, key in enumerate(keys)]
     return [place for _, place in first.values()], which
 
 
+def decay_of_waves(boat, sea):
+    """Return how the waves of a sea die out below a boat, as `HullView` has it."""
+    if not boat.follows_waves:
+        return np.zeros((len(boat.hull.share), 4, 0))
+    return wave_decay(boat.immersion, sea.table)
+
+
 def padded(tables):
-    """Return tables (3 or 8, n) of different lengths as one array; no step reads what is added."""
+    """Return tables (..., n) of different lengths as one array; no step reads what is added."""
     tables = list(tables)
-    whole = np.zeros((len(tables), len(tables[0]), max(table.shape[1] for table in tables)),
-                     tables[0].dtype)
+    whole = np.zeros((len(tables), *tables[0].shape[:-1],
+                      max(table.shape[-1] for table in tables)), tables[0].dtype)
     for place, table in zip(whole, tables):
-        place[:, :table.shape[1]] = table
+        place[..., :table.shape[-1]] = table
     return whole
 
 

@@ -20,10 +20,10 @@ With added mass M is that in force (Kirchhoff), as `forces.added_mass` has it.  
 
 from ..compiled import compiled
 from ..forces.added_mass import mass_in_force, munk
-from ..forces.damping import damping_wrench
+from ..forces.damping import coupled_force, coupled_torque, damping_wrench
 from ..forces.load import at_speed
-from ..vectors import (add, add_scaled_matrix, cross, factor, multiply, scale, solve_factored,
-                       subtract, times)
+from ..vectors import (add, add_scaled_matrix, cross, factor, multiply, scale_matrix,
+                       solve_factored, subtract, times)
 
 
 @compiled
@@ -40,23 +40,19 @@ def damped_accelerations(boat, load, damping, s, force, torque):
     Return a of (M + s C) a = (force, torque): M^-1 f with s = 0, Crank-Nicolson with dt / 2.
 
     The force block is diagonal, with inverse n: it is eliminated, which leaves for the rotation
-    I + s D - B n B^T, B = [s S x] with s e added in (z, y): symmetric and positive definite.
+    I + s angular - B n B^T, B = s coupling: symmetric and positive definite.
     """
     m, inertia = mass_in_force(boat, load.wetness)
     n = (1.0 / (m[0] + s * damping.linear[0]), 1.0 / (m[1] + s * damping.linear[1]),
          1.0 / (m[2] + s * damping.linear[2]))
-    S = (x, y, z) = scale(s, damping.coupling)
-    e = s * damping.sway_yaw
+    B = (xy, xz, yx, yz, zx, zy) = scale_matrix(s, damping.coupling)
     left = add_scaled_matrix(inertia, s, damping.angular)
     left = add_scaled_matrix(left, -1.0, (
-        z * z * n[1] + y * y * n[2], z * z * n[0] + x * x * n[2],
-        y * y * n[0] + (x + e) * (x + e) * n[1],
-        -x * y * n[2], -(x + e) * z * n[1], -y * z * n[0]))
+        xy * xy * n[1] + xz * xz * n[2], yx * yx * n[0] + yz * yz * n[2],
+        zx * zx * n[0] + zy * zy * n[1], xz * yz * n[2], xy * zy * n[1], yx * zx * n[0]))
     moving = multiply(n, force)
-    held = add(cross(S, moving), (0.0, 0.0, e * moving[1]))
-    turning = solve_factored(factor(left), subtract(torque, held))
-    carried = subtract(cross(S, turning), (0.0, e * turning[2], 0.0))
-    return add(moving, multiply(n, carried)), turning
+    turning = solve_factored(factor(left), subtract(torque, coupled_torque(B, moving)))
+    return subtract(moving, multiply(n, coupled_force(B, turning))), turning
 
 
 @compiled

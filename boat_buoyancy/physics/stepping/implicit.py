@@ -26,7 +26,7 @@ from ..forces.buoyancy import lift_stiffness
 from ..forces.load import at_speed
 from ..rotation import rotation_matrix, to_body, to_world
 from ..vectors import (add_scaled, add_scaled_matrix, diagonal, dot, factor, multiply, outer,
-                       scale, solve_factored, subtract, times)
+                       scale, scale_matrix, solve_factored, subtract, times)
 
 
 @compiled
@@ -85,20 +85,20 @@ def solve_implicit(mass, inertia, damping, up, k, lever, K, h, force, torque):
     """
     Return a of (M + h C + h^2 K+) a = (force, torque), by blocks.
 
-    With F = m + h diag(linear) + h^2 k up up^T, B = h [S x] + h^2 l up^T, h e added in (z, y),
-    T = I + h D + h^2 K: (T - B F^-1 B^T) a_w = torque - B F^-1 force, then
+    With F = m + h diag(linear) + h^2 k up up^T, B = h coupling + h^2 l up^T,
+    T = I + h angular + h^2 K: (T - B F^-1 B^T) a_w = torque - B F^-1 force, then
     a_v = F^-1 (force - B^T a_w).
     """
     hh = h * h
     F = add_scaled_matrix(diagonal(mass), h, diagonal(damping.linear))
     F = factor(add_scaled_matrix(F, hh * k, outer(up)))
     T = add_scaled_matrix(add_scaled_matrix(inertia, h, damping.angular), hh, K)
-    sx, sy, sz = scale(h, damping.coupling)
+    xy, xz, yx, yz, zx, zy = scale_matrix(h, damping.coupling)
     lx, ly, lz = scale(hh, lever)
     # The rows of B.
-    bx = add_scaled((0.0, -sz, sy), lx, up)
-    by = add_scaled((sz, 0.0, -sx), ly, up)
-    bz = add_scaled((-sy, sx + h * damping.sway_yaw, 0.0), lz, up)
+    bx = add_scaled((0.0, xy, xz), lx, up)
+    by = add_scaled((yx, 0.0, yz), ly, up)
+    bz = add_scaled((zx, zy, 0.0), lz, up)
     fx, fy, fz = solve_factored(F, bx), solve_factored(F, by), solve_factored(F, bz)
     T = add_scaled_matrix(T, -1.0, (dot(bx, fx), dot(by, fy), dot(bz, fz),
                                     dot(bx, fy), dot(bx, fz), dot(by, fz)))

@@ -16,7 +16,7 @@
 The step of many boats by many periods, in one call: what is compiled.
 
 What changes of a boat are rows of floats (arrays when compiled, lists in plain Python): the state
-(13), the load (25) at its place and time, and what a `HullView` has of it.
+(13), the load (34) at its place and time, and what a `HullView` has of it.
 """
 
 import numpy as np
@@ -34,19 +34,20 @@ from ..vectors import cross, subtract, three
 
 # How a boat is stepped: on which sea, with which panels, integrator steps per period, the rate in
 # Hz of periods, and the bound that the guard holds its speed to.
-PACE = np.dtype([('sea', 'i8'), ('panels', 'i8'), ('substeps', 'i8'), ('rate', 'f8'),
+PACE = np.dtype([('sea', 'i8'), ('panels', 'i8'), ('decay', 'i8'), ('substeps', 'i8'), ('rate', 'f8'),
                  ('bound', BOUND)])
-STATE_SIZE, LOAD_SIZE = 13, 25
+STATE_SIZE, LOAD_SIZE = 13, 34
 
 
 @compiled
-def march(boats, probes, corners, triangles, seas, waves, paces, states, loads, depths, places,
+def march(boats, probes, corners, triangles, decays, seas, waves, paces, states, loads, depths, places,
           reached, failed, thrust, by_boat, by_period, first, periods, track, depth_track):
     """
     Advance every boat by some periods; return how many of them have failed.
 
     Main arguments: records of ``boats`` (B,), ``probes`` (B, n), ``seas`` (S,), ``paces`` (B,);
-    ``corners`` and ``triangles`` of P panelled hulls; ``waves`` S tables.  Rows that change:
+    ``corners`` and ``triangles`` of P panelled hulls; ``decays`` of D hulls in their seas, each as
+    `HullView` has it; ``waves`` S tables.  Rows that change:
     ``states``, ``loads``, ``depths`` (B, 2, n), now and before the period, and ``places`` of each
     boat, ``reached`` (B,) |u|_M,
     ``failed`` (B,), the number of the period in which a boat failed, or 0: it stands still from
@@ -59,7 +60,8 @@ def march(boats, probes, corners, triangles, seas, waves, paces, states, loads, 
     for i in range(len(boats)):
         boat, pace, depth, kept = boats[i], paces[i], depths[i][0], depths[i][1]
         sea, table = seas[pace.sea], waves[pace.sea]
-        hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels], depth, places[i])
+        hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels],
+                        decays[pace.decay], depth, places[i])
         state, memory, greatest = states[i], loads[i], float(reached[i])
         motion, load = read_motion(state), read_load(memory)
         h = 1.0 / (pace.rate * pace.substeps)
@@ -101,13 +103,13 @@ def march_by(integrator):
 
 
 @compiled
-def begin(boats, probes, corners, triangles, seas, waves, paces, states, loads, depths, places,
-          chosen, t):
+def begin(boats, probes, corners, triangles, decays, seas, waves, paces, states, loads, depths,
+          places, chosen, t):
     """Compute loads and depths of the boats ``chosen`` (k,) at their places and t s."""
     for i in chosen:
         motion, pace = read_motion(states[i]), paces[i]
-        hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels], depths[i][0],
-                        places[i])
+        hull = HullView(probes[i], corners[pace.panels], triangles[pace.panels],
+                        decays[pace.decay], depths[i][0], places[i])
         write_load(load_at(boats[i], hull, seas[pace.sea], waves[pace.sea], motion.position,
                            motion.orientation, t), loads[i])
 
@@ -144,21 +146,25 @@ def write_motion(motion, row):
 
 @compiled
 def read_load(row):
-    """Return the `Load` of a row (25)."""
-    damping = DampingMatrix((row[6], row[7], row[8]), (row[9], row[10], row[11]),
-                            (row[12], row[13], row[14], row[15], row[16], row[17]), 0.0)
-    return Load((row[0], row[1], row[2]), (row[3], row[4], row[5]), damping, row[18],
-                (row[19], row[20], row[21]), (row[22], row[23], row[24]))
+    """Return the `Load` of a row (34)."""
+    damping = DampingMatrix((row[6], row[7], row[8]),
+                            (row[9], row[10], row[11], row[12], row[13], row[14]),
+                            (row[15], row[16], row[17], row[18], row[19], row[20]))
+    return Load((row[0], row[1], row[2]), (row[3], row[4], row[5]), damping, row[21],
+                (row[22], row[23], row[24]), (row[25], row[26], row[27]),
+                (row[28], row[29], row[30]), (row[31], row[32], row[33]))
 
 
 @compiled
 def write_load(load, row):
-    """Write a `Load` to a row (25), but ``sway_yaw``: it is 0 before there is a speed."""
+    """Write a `Load` to a row (34)."""
     row[0], row[1], row[2] = load.force
     row[3], row[4], row[5] = load.torque
     row[6], row[7], row[8] = load.damping.linear
-    row[9], row[10], row[11] = load.damping.coupling
-    row[12], row[13], row[14], row[15], row[16], row[17] = load.damping.angular
-    row[18] = load.wetness
-    row[19], row[20], row[21] = load.water
-    row[22], row[23], row[24] = load.wind
+    row[9], row[10], row[11], row[12], row[13], row[14] = load.damping.coupling
+    row[15], row[16], row[17], row[18], row[19], row[20] = load.damping.angular
+    row[21] = load.wetness
+    row[22], row[23], row[24] = load.water
+    row[25], row[26], row[27] = load.turning
+    row[28], row[29], row[30] = load.stream
+    row[31], row[32], row[33] = load.wind
