@@ -235,7 +235,7 @@ def different(things):
 
 
 def padded(tables):
-    """Return tables (3 or 8, n) of different lengths as one array; no step reads what is added."""
+    """Return tables (3 or 9, n) of different lengths as one array; no step reads what is added."""
     tables = list(tables)
     whole = np.zeros((len(tables), len(tables[0]), max(table.shape[1] for table in tables)),
                      tables[0].dtype)
