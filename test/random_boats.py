@@ -20,6 +20,7 @@ from typing import NamedTuple
 from boat_buoyancy.physics.boat.boat import Boat, Damping
 from boat_buoyancy.physics.boat.hull import LAWS, probe_hull
 from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.sea.wave_rows import stopped
 from boat_buoyancy.physics.sea.waves import Sea
 from boats import GRAVITY
 import numpy as np
@@ -81,9 +82,10 @@ def draw(seed, *, drag=True):
     boat = Boat(mass, hull, inertia(random, mass * size ** 2), damping,
                 random.uniform(-0.3, 0.3, 3) * size * [0.3, 0.2, 1.0])
     rough = random.random() < 0.5
-    sea = Sea(waves(random) if rough else (),
-              current=random.normal(size=2) * 2.0 * (random.random() < 0.3),
-              depth=float(random.choice([0.0, 5.0])))
+    rows = waves(random) if rough else np.zeros((0, 4))
+    water = (random.normal(size=2) * 2.0 * (random.random() < 0.3),
+             float(random.choice([0.0, 5.0])))
+    sea = Sea(rows[~stopped(rows, *water, GRAVITY)], *water)
     push = random.normal(size=(len(STARTS), 6)) * weight * [1.0, 1.0, 1.0, *[size] * 3]
     thrust = push * log_uniform(random, 1e-2, 10.0) * (random.random() < 0.5)
     return Draw(boat, sea, starts(random), thrust, log_uniform(random, 1e-3, 1.0))

@@ -120,13 +120,15 @@ def test_leapfrog_stays_within_the_margin_of_the_guard_on_eight_thousand_random_
 
 def test_the_bound_is_the_published_formula():
     # 1000 kg on probes that lift 4 x 9810 N at a distance of sqrt(2) m at most, pushed by 300 N
-    # at the body origin 0.5 m below the centre of mass, in a sea whose fastest water is 2 m/s.
+    # at the body origin 0.5 m below the centre of mass, in a sea whose fastest water is 2 m/s: of
+    # a wave across the current.
     drag = {name: [np.exp(-0.5)] for name in ('angular_retention', 'air_linear_retention',
                                               'air_angular_retention')}
     boat = reference_boat(damping=Damping(linear_retention=[np.exp(-0.7)], probe=1500.0, **drag,
                                           linear=[40.0, 60.0, 20.0, 900.0, 0.0, 0.0]),
                           center_of_mass=(0.0, 0.0, 0.5))
-    bound = SpeedBound.of(boat, Sea([[1.0, 2.0 * np.pi, 0.0, 0.0]], current=[0.6, 0.8]))
+    bound = SpeedBound.of(boat, Sea([[1.0, 2.0 * np.pi, np.arctan2(0.6, -0.8), 0.0]],
+                                    current=[0.6, 0.8]))
     reach = np.sqrt(1.0 + 1.0 + 0.25)
     force = 4.0 * 9810.0 + 9810.0 + 300.0 + 0.5 * 1000.0 * 2.0
     torque = 4.0 * 9810.0 * reach + 0.5 * 300.0

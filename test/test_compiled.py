@@ -28,6 +28,7 @@ from boat_buoyancy.physics import compiled
 from boat_buoyancy.physics.boat.records import readable
 from boat_buoyancy.physics.boat.state import to_rows
 from boat_buoyancy.physics.boat.surface import box_surface
+from boat_buoyancy.physics.stepping.engine import decay_of_waves
 from boat_buoyancy.physics.stepping.integrators import INTEGRATORS
 from boat_buoyancy.physics.stepping.march import begin, LOAD_SIZE, march_by, PACE
 from boat_buoyancy.physics.stepping.speed_bound import SpeedBound
@@ -66,12 +67,12 @@ def python(code, path=PACKAGE.parent, **environment):
 def fleet(boat, count=20):
     """Return the arguments of `march` for boats thrown about in waves, current and wind."""
     sea, (corners, triangles) = wind_sea().with_wind((8.0, -6.0)), boat.panel_rows
-    pace = (0, 0, 2, 50.0, SpeedBound.of(boat, sea).record.item())
+    pace = (0, 0, 0, 2, 50.0, SpeedBound.of(boat, sea).record.item())
     return [np.array([boat.record] * count), np.array([boat.probe_records] * count),
-            corners[None].copy(), triangles[None].copy(),
+            corners[None].copy(), triangles[None].copy(), decay_of_waves(boat, sea)[None],
             np.array([sea.record]), sea.table[None].copy(), np.array([pace] * count, PACE),
             to_rows(random_states((count,), 5)), np.zeros((count, LOAD_SIZE)),
-            np.zeros((count, len(boat.hull.share))), np.zeros((count, 4, corners.shape[1])),
+            np.zeros((count, 2, len(boat.hull.share))), np.zeros((count, 5, corners.shape[1])),
             np.full(count, 1e3), np.zeros(count, int)]
 
 
@@ -81,25 +82,32 @@ def panelled(boat):
         boat.hull, panels=box_surface((2.0, 1.5, 0.8)).refined(0.7), specific_weight=1e4))
 
 
+def in_waves(boat):
+    """Return a boat that takes water along, in waves that die out with depth."""
+    return replace(boat, added_mass=[300.0, 900.0, 1200.0, 250.0, 700.0, 500.0],
+                   immersion=np.linspace(0.1, 0.6, len(boat.hull.share)))
+
+
 @needs_numba
 @pytest.mark.parametrize('integrator', INTEGRATORS)
 def test_compiled_and_plain_agree_to_round_off(integrator):
     push = (np.array([[300.0, -50.0, 20.0, 10.0, -30.0, 60.0]]), 0, 0, 7, 1)
     boats = [asymmetric_boat(law) for law in LAWS]
-    for boat in (*boats, panelled(boats[0]), asymmetric_boat(damping=windy())):
+    for boat in (*boats, panelled(boats[0]), asymmetric_boat(damping=windy()),
+                 in_waves(boats[2]), in_waves(panelled(boats[0]))):
         arrays = fleet(boat)
-        lists = [*map(readable, arrays[:7]), *(values.tolist() for values in arrays[7:11]),
-                 arrays[11].copy(), arrays[12].copy()]
+        lists = [*map(readable, arrays[:8]), *(values.tolist() for values in arrays[8:12]),
+                 arrays[12].copy(), arrays[13].copy()]
         track = np.empty((0, 0)), np.empty((0, 0))
         for function, arguments in ((compiled.machine_code(begin), arrays), (begin, lists)):
-            function(*arguments[:11], np.arange(20), 0.14)
+            function(*arguments[:12], np.arange(20), 0.14)
         assert compiled.machine_code(march_by(integrator))(*arrays, *push, *track) == 0
         assert march_by(integrator)(*lists, push[0].tolist(), *push[1:], *track) == 0
         # The states are of order 1; a load is of the order of the weight.
-        np.testing.assert_allclose(arrays[7], lists[7], rtol=0, atol=1e-12)
-        np.testing.assert_allclose(arrays[8], lists[8], rtol=0, atol=1e-12 * 1e4)
-        np.testing.assert_allclose(arrays[9], lists[9], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(arrays[8], lists[8], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(arrays[9], lists[9], rtol=0, atol=1e-12 * 1e4)
         np.testing.assert_allclose(arrays[10], lists[10], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(arrays[11], lists[11], rtol=0, atol=1e-12)
 
 
 @needs_numba

@@ -20,7 +20,7 @@ from boat_buoyancy.physics import Fleet, load_scene, Sea, State
 from boat_buoyancy.physics.boat.records import readable
 from boat_buoyancy.physics.compiled import machine_code, numba
 from boat_buoyancy.physics.sea.fading import current, fade, FadingSea, ramp, smooth, STEEPEST
-from boat_buoyancy.physics.sea.waves import surface
+from boat_buoyancy.physics.sea.waves import KX, PHASE, surface
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -104,33 +104,41 @@ def test_a_third_sea_in_the_middle_starts_from_what_is_there():
         np.testing.assert_allclose(everything(both, time), expected, atol=1e-12)
 
 
-def random_sea(random):
-    """Return a sea of up to four waves, some of them those of other such seas, or flat water."""
+def random_sea(random, current):
+    """
+    Return a sea of up to four waves, some of them those of other such seas, or flat water.
+
+    ``current`` (2,) m/s, None = any that the shortest of them, of 1 s, can run against.
+    """
+    if current is None:
+        current = random.uniform(-0.27, 0.27, 2) * random.integers(2)
     rows = [[random.uniform(0.0, 0.5), *random.choice([[3.0, 0.0, 0.0], [2.0, 1.0, 0.5],
                                                        random.uniform(1.0, 6.0, 3)])]
             for _ in range(random.integers(5))]
-    return Sea(rows, random.uniform(-1.0, 1.0, 2), random.choice([0.0, 2.0]))
+    return Sea(rows, current, random.choice([0.0, 2.0]))
 
 
-def random_fades(random, count):
+def random_fades(random, count, current=None):
     """Yield fades (from, to, when, over how long) of seas that follow each other at random."""
-    sea, time = random_sea(random), 0.0
+    sea, time = random_sea(random, current), 0.0
     for _ in range(count):
         time += random.choice([0.0, 0.05, 1.3, 3.0, 9.0])
         duration = random.choice([0.5, 2.0, 4.0])
-        faded = fade(sea, random_sea(random), time, duration)
+        faded = fade(sea, random_sea(random, current), time, duration)
         if faded is not None:
             yield sea, faded, time, duration
             sea = faded
 
 
 def test_the_surface_never_jumps_and_the_water_rises_as_fast_as_it_does():
-    random, h = np.random.default_rng(2), 1e-4
-    for before, sea, start, duration in random_fades(random, 100):
+    # As who drifts with the current sees it.
+    random, h, (u, v) = np.random.default_rng(2), 1e-4, (0.2, -0.25)
+    for before, sea, start, duration in random_fades(random, 100, (u, v)):
         assert sea.elevation(X, Y, start) == pytest.approx(before.elevation(X, Y, start),
                                                            abs=ROUND_OFF)
         for time in start + duration * np.array([-0.1, 0.0, 0.2, 0.5, 0.9, 1.0, 1.1]):
-            rise = (sea.elevation(X, Y, time + h) - sea.elevation(X, Y, time - h)) / (2 * h)
+            rise = (sea.elevation(X + u * h, Y + v * h, time + h)
+                    - sea.elevation(X - u * h, Y - v * h, time - h)) / (2 * h)
             # Heights of at most 4 m in three seas, h^2 / 6 times their third derivative; that of
             # the ramp is 60 / duration^3, of the waves up to (2 pi)^3.
             error = h * h / 6.0 * 4.0 * (2 * math.pi + 60.0 ** (1 / 3) / duration) ** 3
@@ -153,7 +161,7 @@ def test_of_a_slow_fade_the_bound_is_not_above_that_of_both_seas_together():
 
 
 def test_a_wave_of_both_seas_only_changes_its_amplitude():
-    high = Sea(OLD.waves * [2.5, 1.0, 1.0, 1.0])
+    high = Sea(OLD.waves * [2.5, 1.0, 1.0, 1.0], OLD.current)
     sea = fade(OLD, high, START, DURATION)
     assert sea.table.shape == OLD.table.shape
     for time in np.linspace(START - 1.0, END + 1.0, 9):
@@ -178,15 +186,28 @@ def test_given_again_a_little_higher_twice_a_second_it_keeps_phase_and_pace():
 
 def test_a_wave_of_another_depth_or_phase_is_another_wave():
     for other in (Sea(OLD.waves, depth=2.0), Sea(OLD.waves + [0.0, 0.0, 0.0, 0.1])):
-        assert fade(OLD, other, START, DURATION).table.shape == (8, 4)
+        assert fade(OLD, other, START, DURATION).table.shape == (9, 4)
 
 
-def test_waves_go_on_as_they_are_when_only_the_current_changes():
-    sea = fade(OLD, Sea(OLD.waves, current=(0.0, 1.0)), START, DURATION)
+def test_waves_go_on_as_they_are_when_only_the_current_across_them_changes():
+    rows = [[0.2, 3.0, 0.0, 0.0], [0.1, 2.0, 0.0, 0.5]]
+    old = Sea(rows, current=(0.0, -0.5))
+    sea = fade(old, Sea(rows, current=(0.0, 1.0)), START, DURATION)
     for time in (10.5, 12.0, 13.9):
         s, _ = weights(time)
-        np.testing.assert_array_equal(sea.elevation(X, Y, time), OLD.elevation(X, Y, time))
-        np.testing.assert_allclose(sea.current_at(time), [0.5 * (1.0 - s), s], atol=ROUND_OFF)
+        np.testing.assert_array_equal(sea.elevation(X, Y, time), old.elevation(X, Y, time))
+        np.testing.assert_allclose(sea.current_at(time), [0.0, 1.5 * s - 0.5], atol=ROUND_OFF)
+
+
+def test_each_wave_keeps_the_length_that_it_has_on_the_current_of_its_own_sea():
+    row, change = [[0.2, 3.0, 0.0, 0.0]], ((0.0, 0.0), (1.0, 0.0))
+    sea = fade(*(Sea(row, current) for current in change), START, DURATION)
+    lengths = 2 * np.pi / sea.table[KX]
+    # T = 3 s: w^2 = g k, and (w - k)^2 = g k on 1 m/s along the wave.
+    np.testing.assert_allclose(lengths, [14.0518, 19.5924], rtol=1e-5)
+    # Both pass a fixed point in their 3 s, all the time.
+    later = sea.starting_at(3.0)
+    np.testing.assert_allclose(np.cos(later.table[PHASE]), np.cos(sea.table[PHASE]), atol=1e-14)
 
 
 def test_no_duration_is_at_once():

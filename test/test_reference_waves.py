@@ -14,7 +14,8 @@
 
 from boat_buoyancy.physics.boat.boat import Damping
 from boat_buoyancy.physics.boat.state import State
-from boat_buoyancy.physics.sea.waves import Sea, wavenumber
+from boat_buoyancy.physics.sea.dispersion import wavenumber
+from boat_buoyancy.physics.sea.waves import Sea
 from boats import (
     asymmetric_boat, DRAFT, HEAVE, last_state, MASS, random_states, reference_boat, simulate,
     start, undamped, wind_sea)

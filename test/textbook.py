@@ -34,13 +34,20 @@ def cross(a, b):
                      a[0] * b[1] - a[1] * b[0]])
 
 
-def dispersion(angular_frequency, depth, gravity):
-    """Return the wave number of linear waves, by bracketing."""
-    deep = angular_frequency**2 / gravity
-    if depth == 0.0:
-        return deep
-    return brentq(lambda k: gravity * k * np.tanh(k * depth) - angular_frequency**2,
-                  deep * 0.5, 10.0 * deep + 10.0 / depth, xtol=1e-15, rtol=1e-14)
+def dispersion(angular_frequency, depth, gravity, current=0.0):
+    """
+    Return the wave number of linear waves on a current along them, by bracketing.
+
+    The least k at which the frequency of still water and that which the current adds make w.
+    """
+    def excess(k):
+        shallow = np.tanh(k * depth) if depth else 1.0
+        return np.sqrt(gravity * k * shallow) + current * k - angular_frequency
+
+    high = angular_frequency**2 / gravity * 1e-6
+    while excess(high) < 0.0:
+        high *= 1.001
+    return brentq(excess, 0.0, high, xtol=1e-15, rtol=1e-14)
 
 
 def water(sea, x, y, time):
@@ -48,12 +55,13 @@ def water(sea, x, y, time):
     height, velocity = 0.0, np.array([*sea.current, 0.0])
     for amplitude, period, direction, phase in sea.waves:
         frequency = 2 * np.pi / period
-        k = dispersion(frequency, sea.depth, sea.gravity)
         ahead = np.array([np.cos(direction), np.sin(direction), 0.0])
+        along = ahead[:2] @ sea.current
+        k = dispersion(frequency, sea.depth, sea.gravity, along)
         theta = k * (x * ahead[0] + y * ahead[1]) - frequency * time + phase
         shallow = np.tanh(k * sea.depth) if sea.depth else 1.0
         height += amplitude * np.cos(theta)
-        velocity = velocity + amplitude * frequency * (
+        velocity = velocity + amplitude * (frequency - k * along) * (
             np.cos(theta) / shallow * ahead + np.sin(theta) * UP)
     return height, velocity
 

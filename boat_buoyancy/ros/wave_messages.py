@@ -31,7 +31,7 @@ from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from . import qos
 from .complaints import Refused
-from ..physics.sea.waves import checked_waves, MAX_COMPONENTS
+from ..physics.sea.wave_rows import checked_waves, MAX_COMPONENTS
 
 TOPIC = 'wave_parameters'
 # Twice as many rows as are allowed, so that somewhat too many are answered with their number.

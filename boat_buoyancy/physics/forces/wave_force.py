@@ -29,7 +29,7 @@ from .buoyancy import point_of_force
 from .probe_laws import wetting
 from ..compiled import compiled, REORDERED
 from ..rotation import to_body
-from ..sea.waves import (ALONG_X, ALONG_Y, FREQUENCY, KX, KY, PHASE, RISE, START)
+from ..sea.waves import ALONG_X, ALONG_Y, FREQUENCY, INTRINSIC, KX, KY, PHASE, RISE, START
 from ..trigonometry import sine_cosine
 from ..vectors import add, add_scaled, cross, subtract
 
@@ -59,12 +59,13 @@ def water_motion(waves, decay, number, x, y, t, weight, rate):
     """
     Return the `WaterMotion` at a place and time; arguments as of `sea.waves.surface`.
 
-    felt = sum a P cos theta, slope = -sum a k S sin theta, u = sum a A w / tanh(k h) cos theta,
-    w = sum a U w sin theta, and their changes at a place; P, S, A, U of ``decay``, see
-    `wave_decay`.
+    felt = sum a P cos theta, slope = -sum a k S sin theta, u = sum a A s / tanh(k h) cos theta,
+    w = sum a U s sin theta, s the intrinsic frequency, and their changes for a hull that the
+    current carries along; P, S, A, U of ``decay``, see `wave_decay`.
     """
     kx, ky, frequency, phase = waves[KX], waves[KY], waves[FREQUENCY], waves[PHASE]
-    start, rise, along_x, along_y = waves[START], waves[RISE], waves[ALONG_X], waves[ALONG_Y]
+    start, rise, intrinsic = waves[START], waves[RISE], waves[INTRINSIC]
+    along_x, along_y = waves[ALONG_X], waves[ALONG_Y]
     pressure, mean, along, up = decay[PRESSURE], decay[SLOPE], decay[ALONG], decay[UP]
     eta = felt = sx = sy = u = v = w = au = av = aw = 0.0
     for j in range(number):
@@ -79,12 +80,12 @@ def water_motion(waves, decay, number, x, y, t, weight, rate):
         moving = amplitude * along[j] * cosine
         u += along_x[j] * moving
         v += along_y[j] * moving
-        faster = amplitude * along[j] * frequency[j] * sine
+        faster = amplitude * along[j] * intrinsic[j] * sine
         au += along_x[j] * faster
         av += along_y[j] * faster
-        rising = amplitude * up[j] * frequency[j]
+        rising = amplitude * up[j] * intrinsic[j]
         w += rising * sine + rate * rise[j] * up[j] * cosine
-        aw -= frequency[j] * rising * cosine
+        aw -= intrinsic[j] * rising * cosine
     part = STEEPEST / max(math.sqrt(sx * sx + sy * sy), STEEPEST)
     return WaterMotion(eta, felt, (part * sx, part * sy), (u, v, w), (au, av, aw))
 
@@ -158,7 +159,7 @@ def wave_decay(immersion, table):
 
 
 def bottom_decay(table):
-    """Return e^(-2kh) (W,) of each wave of a table, 0 in deep water, from w / tanh(kh)."""
+    """Return e^(-2kh) (W,) of each wave of a table, 0 in deep water, from s / tanh(kh)."""
     along = np.hypot(table[ALONG_X], table[ALONG_Y])
-    tanh = np.minimum(table[FREQUENCY] / np.maximum(along, np.finfo(float).tiny), 1.0)
+    tanh = np.minimum(table[INTRINSIC] / np.maximum(along, np.finfo(float).tiny), 1.0)
     return (1.0 - tanh) / (1.0 + tanh)

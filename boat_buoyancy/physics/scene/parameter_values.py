@@ -20,7 +20,7 @@ import numpy as np
 
 from .parameters import PARAMETERS
 from .. import checks
-from ..sea.waves import checked_waves, WAVE_FORM
+from ..sea.wave_rows import checked_waves, WAVE_FORM
 
 # Arrays that may be given as rows: of how many numbers, and which.
 ROWS = {'probes.positions': (3, 'x, y, z of every probe'), 'sea.waves': (4, WAVE_FORM),

@@ -24,7 +24,7 @@ import difflib
 
 from ..boat.hull import LAWS
 from ..boat.shapes import SHAPES
-from ..sea.waves import MAX_COMPONENTS
+from ..sea.wave_rows import MAX_COMPONENTS
 from ..stepping.integrators import INTEGRATORS
 
 MODELS, WAVE_FORCES = ('columns', 'panels'), ('hydrostatic', 'froude_krylov')

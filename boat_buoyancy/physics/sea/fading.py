@@ -19,6 +19,8 @@ What stays of the old sea fades out while the new one fades in, on a smooth ramp
 amplitude is part of the water's velocity.  The surface never jumps; where a third sea comes in
 the middle, the speed at which it rises and sinks does.  The wind is the new sea's from the start:
 it only pushes, so that nothing jumps with it, and who sends gusts wants each of them at once.
+The current fades with the waves; each of them keeps the length and the orbital speed that it has
+on the full current of its own sea.
 """
 
 from dataclasses import dataclass, replace
@@ -26,13 +28,14 @@ from functools import cached_property
 
 import numpy as np
 
-from .waves import (ALONG_X, ALONG_Y, FREQUENCY, KX, KY, PHASE, RISE, SEA, Sea, START, Water)
+from .waves import (
+    ALONG_X, ALONG_Y, FREQUENCY, INTRINSIC, KX, KY, PHASE, RISE, SEA, Sea, START, Water)
 from ..compiled import compiled
 
 # The steepest slope of the ramp times its duration.
 STEEPEST = 15.0 / 8.0
 # What makes two waves the same but for their amplitude.
-WAVE = [KX, KY, FREQUENCY, PHASE]
+WAVE = [KX, KY, FREQUENCY, PHASE, INTRINSIC]
 
 
 @compiled
@@ -66,7 +69,7 @@ class FadingSea(Water):
     """
     A sea that turns into ``new`` from ``start`` s on, over ``duration`` s; made by `fade`.
 
-    ``table`` (8, W) of the waves of both, amplitudes as they start and what they rise by;
+    ``table`` (9, W) of the waves of both, amplitudes as they start and what they rise by;
     ``current_start`` (2,) m/s; ``layered``: it began while another fade was under way.
     """
 

@@ -20,18 +20,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .wave_rows import check_waves_run, checked_waves, currents_along, wavenumbers
 from .. import checks
 from ..compiled import compiled, FUSED, REORDERED
 from ..trigonometry import sine_cosine
 
-MAX_COMPONENTS = 1000
-MAX_AMPLITUDE = 1000.0
-MIN_PERIOD, MAX_PERIOD = 0.01, 1e6
-WAVE_FORM = 'rows of [amplitude m, period s, direction rad, phase rad]'
-
 # Rows of a wave table, a column a wave.  Amplitudes are start + weight * rise, weight 0 to 1 as
-# the sea fades (see `fading`); a wave of 1 m moves the water at the speeds given.
-KX, KY, FREQUENCY, PHASE, START, RISE, ALONG_X, ALONG_Y = range(8)
+# the sea fades (see `fading`); a wave of 1 m moves the water at the speeds given.  The frequency
+# is that at a fixed point and makes the phase; the intrinsic one is that in the water, which a
+# current carries along, and makes the speeds: up as it is, along divided by tanh(k h).
+KX, KY, FREQUENCY, PHASE, START, RISE, ALONG_X, ALONG_Y, INTRINSIC = range(9)
 # What the step reads of a sea beside its waves.
 SEA = np.dtype([('waves', 'i8'), ('fade_start', 'f8'), ('fade_duration', 'f8'),
                 ('current', 'f8', 2), ('current_rise', 'f8', 2), ('wind', 'f8', 2)])
@@ -42,13 +40,14 @@ def surface(waves, number, x, y, t, weight, rate):
     """
     Return the height of the water in m and its orbital velocity (3) m/s at a place and time.
 
-    eta = sum a cos theta, u = sum a w / tanh(k h) cos theta along each wave's direction,
-    w = sum a w sin theta + sum a' cos theta, theta = k.x - w t + phase; amplitudes
-    a = start + weight rise, a' = rate rise.  Of the table's waves, the first ``number``: what
-    comes after them would not change the sums, but their order.
+    eta = sum a cos theta, u = sum a s / tanh(k h) cos theta along each wave's direction,
+    w = sum a s sin theta + sum a' cos theta, theta = k.x - w t + phase, s the intrinsic
+    frequency; amplitudes a = start + weight rise, a' = rate rise.  Of the table's waves, the
+    first ``number``: what comes after them would not change the sums, but their order.
     """
     kx, ky, frequency, phase = waves[KX], waves[KY], waves[FREQUENCY], waves[PHASE]
-    start, rise, along_x, along_y = waves[START], waves[RISE], waves[ALONG_X], waves[ALONG_Y]
+    start, rise, intrinsic = waves[START], waves[RISE], waves[INTRINSIC]
+    along_x, along_y = waves[ALONG_X], waves[ALONG_Y]
     eta = u = v = w = 0.0
     for j in range(number):
         theta = kx[j] * x + ky[j] * y - frequency[j] * t + phase[j]
@@ -57,7 +56,7 @@ def surface(waves, number, x, y, t, weight, rate):
         eta += amplitude * cosine
         u += amplitude * along_x[j] * cosine
         v += amplitude * along_y[j] * cosine
-        w += amplitude * frequency[j] * sine + rate * rise[j] * cosine
+        w += amplitude * intrinsic[j] * sine + rate * rise[j] * cosine
     return eta, (u, v, w)
 
 
@@ -78,25 +77,6 @@ def add_elevation(waves, number, origin, x, y, points, t, weight, heights):
             heights[i] += amplitude * cosine
 
 
-def wavenumber(angular_frequency, depth=0.0, gravity=9.81):
-    """
-    Return k in rad/m that solves the dispersion relation w^2 = g k tanh(k depth).
-
-    Main arguments: ``angular_frequency`` (...,) rad/s; ``depth`` m, 0 = deep water.
-    Other arguments: ``gravity`` m/s^2.
-    """
-    deep = np.asarray(angular_frequency, float) ** 2 / gravity
-    if depth == 0.0:
-        return deep
-    # Newton on x tanh x = y with x = k depth, from a start that lies right of the root.
-    y = deep * depth
-    x = np.maximum(y, np.sqrt(y))
-    for _ in range(20):
-        t = np.tanh(x)
-        x = x - (x * t - y) / (t + x * (1.0 - t * t))
-    return x / depth
-
-
 # The waves that together carry this part of a sea's energy, the shortest or the longest, do not
 # count.
 NEGLIGIBLE_ENERGY = 0.01
@@ -106,7 +86,7 @@ class Water:
     """
     What every sea can be asked: its surface and its motion, from its table of waves.
 
-    ``table`` (8, W), see above; ``amplitudes`` (time) and ``current_at`` (time) as they are then.
+    ``table`` (9, W), see above; ``amplitudes`` (time) and ``current_at`` (time) as they are then.
     """
 
     def _angle(self, x, y, time):
@@ -151,7 +131,7 @@ class Water:
         angle, (amplitude, change) = self._angle(x, y, time), self.amplitudes(time)
         cosine, current = np.cos(angle), self.current_at(time)
         along = (cosine * amplitude) @ self.table[[ALONG_X, ALONG_Y]].T
-        up = (np.sin(angle) * amplitude) @ self.table[FREQUENCY] + (cosine * change).sum(axis=-1)
+        up = (np.sin(angle) * amplitude) @ self.table[INTRINSIC] + (cosine * change).sum(axis=-1)
         return np.concatenate([along + current, up[..., None]], axis=-1)
 
 
@@ -162,9 +142,10 @@ class Sea(Water):
 
     Main arguments: ``waves`` (W, 4), rows of amplitude m, period s, direction rad (where the
     waves go, counter-clockwise from world x) and phase rad, eta = sum a cos(k.x - w t + phase).
+    Periods are those at a fixed point: a current makes its waves longer or shorter.
     Other arguments: ``current`` (2,) m/s in world x and y; ``depth`` m, 0 = deep water;
     ``gravity`` m/s^2; ``wind`` (2,) m/s in world x and y, where it blows to.  ValueError says
-    which row is wrong and what is expected.
+    which row is wrong, or cannot run against the current, and what is expected.
     """
 
     waves: ArrayLike = ()
@@ -180,18 +161,32 @@ class Sea(Water):
         object.__setattr__(self, 'depth', checks.number('sea.depth', self.depth, at_least=0.0))
         object.__setattr__(self, 'gravity', checks.number('gravity', self.gravity, above=0.0))
         object.__setattr__(self, 'wind', checks.vector('wind.velocity', self.wind, 2))
+        check_waves_run(self.waves, self.current, self.depth, self.gravity)
 
     @cached_property
     def angular_frequency(self) -> np.ndarray:
-        """Return (W,) rad/s."""
+        """Return (W,) rad/s, as seen from a fixed point."""
         return 2 * np.pi / self.waves[:, 1]
+
+    @cached_property
+    def _wavenumber(self):
+        """Return (W,) rad/m."""
+        return wavenumbers(self.waves, self.current, self.depth, self.gravity)
 
     @cached_property
     def wave_vector(self) -> np.ndarray:
         """Return (W, 2), rad/m along world x and y."""
-        k = wavenumber(self.angular_frequency, self.depth, self.gravity)
-        direction = self.waves[:, 2]
+        k, direction = self._wavenumber, self.waves[:, 2]
         return np.stack([k * np.cos(direction), k * np.sin(direction)], axis=1)
+
+    @cached_property
+    def intrinsic_frequency(self) -> np.ndarray:
+        """Return (W,) rad/s, as who drifts with the current sees it: w - k.U."""
+        along = currents_along(self.waves, self.current)
+        shallow = np.tanh(self._wavenumber * self.depth) if self.depth else 1.0
+        # The same as w - k.U, which loses its digits in a strong current.
+        return np.where(along, np.sqrt(self.gravity * self._wavenumber * shallow),
+                        self.angular_frequency)
 
     @cached_property
     def _horizontal_ratio(self):
@@ -213,12 +208,12 @@ class Sea(Water):
 
     @cached_property
     def table(self) -> np.ndarray:
-        """Return the table of waves (8, W) that the step reads."""
+        """Return the table of waves (9, W) that the step reads."""
         amplitude, _, direction, phase = self.waves.T
-        along = self.angular_frequency * self._horizontal_ratio
+        along = self.intrinsic_frequency * self._horizontal_ratio
         table = np.stack([*self.wave_vector.T, self.angular_frequency, phase, amplitude,
                           np.zeros(len(self.waves)), along * np.cos(direction),
-                          along * np.sin(direction)])
+                          along * np.sin(direction), self.intrinsic_frequency])
         table.setflags(write=False)
         return table
 
@@ -237,8 +232,8 @@ class Sea(Water):
 
     @cached_property
     def fastest_water(self) -> float:
-        """Return a bound of the water speed at the surface in m/s: sum a w/tanh(kh) + current."""
-        orbital = self.waves[:, 0] * self.angular_frequency * self._horizontal_ratio
+        """Return a bound of the water speed at the surface in m/s: sum a s/tanh(kh) + current."""
+        orbital = self.waves[:, 0] * self.intrinsic_frequency * self._horizontal_ratio
         return float(orbital.sum() + np.hypot(*self.current))
 
     def with_wind(self, wind: ArrayLike) -> 'Sea':
@@ -256,36 +251,3 @@ class Sea(Water):
         turns = np.fmod(time, waves[:, 1]) / waves[:, 1]
         waves[:, 3] = np.fmod(waves[:, 3] - 2 * np.pi * turns, 2 * np.pi)
         return replace(self, waves=waves)
-
-
-def checked_waves(rows):
-    """
-    Return rows of waves as a read-only (W, 4) array.
-
-    ``rows`` is a (W, 4) array or a flat list of 4 W numbers.  ValueError names the row that is
-    wrong, what was given and what is expected.
-    """
-    try:
-        flat = np.array(rows, float).ravel()
-    except (TypeError, ValueError, OverflowError):
-        raise ValueError(f'sea.waves: expected {WAVE_FORM}, got {checks.shown(rows)}') from None
-    if flat.size % 4:
-        raise ValueError(f'sea.waves: expected {WAVE_FORM}, four numbers a row, '
-                         f'got {flat.size} numbers')
-    if flat.size > 4 * MAX_COMPONENTS:
-        raise ValueError(f'sea.waves: expected at most {MAX_COMPONENTS} rows, '
-                         f'got {flat.size // 4}')
-    waves = flat.reshape(-1, 4)
-    amplitude, period = waves[:, 0], waves[:, 1]
-    for wrong, expected in (
-            (~np.isfinite(waves).all(axis=1), 'four finite numbers'),
-            ((amplitude < 0) | (amplitude > MAX_AMPLITUDE),
-             f'an amplitude of 0 to {MAX_AMPLITUDE:g} m'),
-            ((period < MIN_PERIOD) | (period > MAX_PERIOD),
-             f'a period of {MIN_PERIOD:g} to {MAX_PERIOD:g} s')):
-        if wrong.any():
-            row = int(np.argmax(wrong))
-            raise ValueError(f'sea.waves: row {row + 1} is {waves[row].tolist()}, '
-                             f'expected {expected}: {WAVE_FORM}')
-    waves.setflags(write=False)
-    return waves
