@@ -81,8 +81,8 @@ class SpeedBound:
             force=float(hull.max_lift + boat.weight + drag * boat.mass * water),
             torque=torque,
             mass=boat.mass, least_moment=least_moment, drag=drag,
-            power=quarter * (damping.probe + boat.mass * (float(rates[:, :3].max()) - drag)
-                             + float(damping.linear[:3].max()) + quadratic * water)
+            power=quarter * (float(damping.probe.max() + damping.linear[:3].max())
+                             + boat.mass * (float(rates[:, :3].max()) - drag) + quadratic * water)
             + gust * wind,
             power_rate=quarter * quadratic / math.sqrt(boat.mass) + gust * per_norm)
 
