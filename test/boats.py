@@ -82,7 +82,7 @@ def all_damping():
     return Damping(
         linear_retention=[0.9, 0.8, 0.7], angular_retention=[0.85, 0.8, 0.75],
         air_linear_retention=[0.99, 0.98, 0.97], air_angular_retention=[0.995, 0.985, 0.975],
-        probe=800.0, linear=[50.0, 60.0, 70.0, 80.0, 90.0, 100.0],
+        probe=[500.0, 600.0, 800.0], linear=[50.0, 60.0, 70.0, 80.0, 90.0, 100.0],
         quadratic=[40.0, 50.0, 60.0, 70.0, 80.0, 90.0])
 
 

@@ -53,8 +53,9 @@ def draw(seed, *, drag=True):
     Return a `Draw`.
 
     Step 1 ms to 1 s; stiffness up to 1e4 times that of a draft of half the size; probe damping up
-    to 1e4 times critical; drag of 1e-2 to 1e4 1/s in water and at least 1e-2 in air; thrust up
-    to ten times the weight and waves, each in half the draws.  ``drag=False`` leaves out the drag.
+    to 1e4 times critical, on each axis its own; drag of 1e-2 to 1e4 1/s in water and at least
+    1e-2 in air; thrust up to ten times the weight and waves, each in half the draws.
+    ``drag=False`` leaves out the drag.
     """
     random = np.random.default_rng(seed)
     mass, size = log_uniform(random, 1.0, 1e5), log_uniform(random, 0.3, 20.0)
@@ -71,7 +72,7 @@ def draw(seed, *, drag=True):
         **{name: np.exp(-log_uniform(random, 1e-2, GREATEST_RATE, 3) * drag) for name in (
             'linear_retention', 'angular_retention',
             'air_linear_retention', 'air_angular_retention')},
-        probe=random.choice([0.0, critical * log_uniform(random, 1e-2, 1e4)]))
+        probe=critical * log_uniform(random, 1e-2, 1e4, 3) * random.integers(0, 2, 3))
     if drag and random.random() < 0.5:
         scale = mass * np.array([1.0, 1.0, 1.0, *[size ** 2] * 3])
         damping = Damping(

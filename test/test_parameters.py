@@ -29,8 +29,9 @@ DEFAULT = Path(__file__).parents[1] / 'config' / 'default.yaml'
 KINDS = {'float': float, 'int': int, 'bool': bool, 'string': str, 'float_array': tuple,
          'int_array': tuple, 'string_array': tuple, 'path': str}
 DERIVED = {'boat.inertia', 'hull.bottom', 'probes.positions', 'probes.weights', 'probes.law',
-           'damping.probe', 'sea.waves', 'hull.spacing', 'hull.mesh', 'start.orientation',
-           'thrusters.names', 'thrusters.positions', 'thrusters.directions', 'thrusters.limits'}
+           'damping.linear_retention', 'damping.angular_retention', 'damping.probe', 'sea.waves',
+           'hull.spacing', 'hull.mesh', 'start.orientation', 'thrusters.names',
+           'thrusters.positions', 'thrusters.directions', 'thrusters.limits'}
 # With these there is nothing to raise.
 NO_NUMBER = {'integrator', 'world_frame', 'body_frame', 'publish_clock', 'hull.shape',
              'hull.model', 'hull.mesh', 'probes.law', 'thrusters.names', 'frame_prefix',
@@ -148,7 +149,9 @@ def wrong_values(parameter):
     values = [value for number in numbers for value in alone_and_in_place(parameter, number, 1)]
     if not parameter.kind.endswith('_array'):
         return [*values, [1], []]
-    values += [1, 1.0, 'word', None, {}, [[1.0], [1.0, 1.0]]]
+    values += [True, 'word', None, {}, [[1.0], [1.0, 1.0]]]
+    if 1 not in parameter.lengths:
+        values += [1, 1.0]
     if parameter.lengths:
         values += [[1] * length for length in range(8) if length not in parameter.lengths]
         values.append([[1] * parameter.lengths[0]])
@@ -183,6 +186,11 @@ def test_an_array_may_be_a_list_a_tuple_or_an_array():
     for value in ([1.0, 2.0, 3.0], (1, 2, 3), np.array([1.0, 2.0, 3.0]), np.array([1, 2, 3]),
                   np.array([1, 2, 3], np.float32)):
         assert checked('boat.center_of_mass', value) == (1.0, 2.0, 3.0)
+
+
+def test_a_number_is_taken_for_an_array_that_may_be_of_one():
+    assert checked('damping.probe', 4000) == checked('damping.probe', [4000.0]) == (4000.0,)
+    assert 'expected a list of numbers, got 4000' in refusal('damping.linear', 4000)
 
 
 def test_rows_of_probes_and_waves_may_stay_rows():

@@ -262,7 +262,7 @@ def test_the_speed_that_the_push_is_said_to_give():
     text = section('Push it, roll waves under it, watch it')
     force = float(re.search(r'force: \{x: ([\d.]+)\}', text)[1])
     sim = load_scene({}).simulation()
-    for _ in range(1500):
+    for _ in range(3000):
         sim.step([force, 0.0, 0.0, 0.0, 0.0, 0.0])
     assert f'make {sim.state.velocity[0]:.2f} m/s' in text
     assert 'draft 0.244 m, heave 0.991 s, roll 1.3 s, pitch 1.06 s' in TEXT

@@ -80,7 +80,7 @@ def test_a_scene_is_made_again_by_its_own_values():
             assert np.array_equal(getattr(again.start, field), getattr(scene.start, field))
         assert np.array_equal(again.sea.waves, scene.sea.waves)
         assert np.array_equal(again.boat.inertia, scene.boat.inertia)
-        assert again.boat.damping.probe == scene.boat.damping.probe
+        assert np.array_equal(again.boat.damping.probe, scene.boat.damping.probe)
         assert np.array_equal(again.boat.hull.max_force, scene.boat.hull.max_force)
 
 
@@ -251,14 +251,65 @@ def test_probes_damp_heave_at_0_3_of_critical_unless_given(parameters):
 
 
 def test_drag_that_counts_twice_is_warned_of():
-    scene = load_scene({'damping.linear': [1.0] * 6, 'damping.angular_retention': [1.0]})
-    assert any(sentence.startswith('Drag counts twice: damping.linear on top of '
-                                   'damping.linear_retention') for sentence in scene.warnings)
-    alone = {'damping.quadratic': [1.0] * 6, 'damping.angular_retention': [1.0],
-             'damping.linear_retention': [1.0]}
-    assert load_scene({**alone, 'damping.probe': 0.0}).warnings == ()
-    sentence, = load_scene(alone).warnings
-    assert 'on top of damping.probe' in sentence and 'set damping.probe: 0.0' in sentence
+    drag = {'damping.linear': [1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+            'damping.quadratic': [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]}
+    for more, said in (
+            ({'damping.linear_retention': [0.9, 0.9, 0.5]},
+             'surge, sway: damping.linear and damping.quadratic on top of '
+             'damping.linear_retention,'),
+            ({'damping.angular_retention': [0.9]},
+             'yaw: damping.linear on top of damping.angular_retention,'),
+            ({'damping.probe': [10.0, 0.0, 900.0]},
+             'surge, yaw: damping.linear on top of damping.probe,')):
+        sentence, = load_scene({**drag, **more}).warnings
+        assert sentence.startswith(f'Drag counts twice in {said}')
+    # Heave alone is damped once, as are roll and pitch by it.
+    for more in ({}, {'damping.probe': [0.0, 0.0, 900.0]}, {'damping.probe': 0.0},
+                 {'damping.linear_retention': [1.0, 1.0, 0.5], 'damping.angular_retention': [
+                     0.5, 0.5, 1.0]}):
+        assert load_scene({**drag, **more}).warnings == ()
+
+
+def test_a_boat_that_is_given_drag_has_no_other_made_up_in_water():
+    for drag in ({'damping.linear': [1.0] * 6}, {'damping.quadratic': [0.0] * 5 + [1.0]}):
+        damping = load_scene(drag).boat.damping
+        assert not damping.probe.any() and not damping.rates[0].any()
+        assert damping.rates[1].all()
+        assert load_scene({**drag, 'damping.probe': 7.0}).values['damping.probe'] == (7.0,)
+        kept = load_scene({**drag, 'damping.linear_retention': [0.9]}).boat.damping.rates[0]
+        np.testing.assert_allclose(kept, [-math.log(0.9)] * 3 + [0.0] * 3)
+
+
+def test_drag_that_is_given_later_makes_the_boat_that_it_makes_from_the_start():
+    steps = [{}, {'damping.linear': [1.0] * 6},
+             {'damping.linear': [1.0] * 6, 'damping.linear_retention': [0.8]},
+             {'damping.probe': 5.0, 'damping.quadratic': [2.0] * 6}, {'damping.probe': 5.0},
+             {'damping.linear': [0.0] * 6}, {}]
+    scene = None
+    for values in steps:
+        scene = scene_from_values(values, scene)
+        fresh = load_scene(values)
+        assert scene.values == fresh.values and scene.warnings == fresh.warnings
+        assert scene.boat.record.tobytes() == fresh.boat.record.tobytes()
+
+
+def test_the_default_boat_glides_and_one_that_its_probes_hold_back_is_told():
+    def speed(values, force):
+        run = load_scene(values).simulation().run(60.0, [force, 0.0, 0.0, 0.0, 0.0, 0.0])
+        return run.body_velocity[-1, 0]
+
+    # c = 0.01 2 sqrt(K m) over rho g L B, and -m ln 0.95.
+    drag = 0.02 * math.sqrt(1025.0 * 9.81 * 8.0 * 2000.0) - 2000.0 * math.log(0.95)
+    assert speed({}, 800.0) == pytest.approx(800.0 / drag, rel=1e-3)
+    # A push of 1 N/kg against the probes alone.
+    held = {'damping.probe': 5000.0, 'damping.linear_retention': [1.0]}
+    sentence, = load_scene(held).warnings
+    assert f'no faster than {speed(held, 2000.0):.2g} m/s' in sentence
+    assert 'damping.probe: [0.0, 0.0, 5000.0]' in sentence
+    assert load_scene({'damping.probe': [0.0, 0.0, 5000.0]}).warnings == ()
+    # m / c = 0.5 m/s is where it begins.
+    assert load_scene({'damping.probe': 4001.0}).warnings
+    assert load_scene({'damping.probe': 3999.0}).warnings == ()
 
 
 def test_what_nothing_looks_at_is_said_and_not_ignored():

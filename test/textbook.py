@@ -21,7 +21,6 @@ time integration is SciPy's adaptive eighth-order DOP853, the forces are plain s
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.linalg import sqrtm
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
@@ -82,6 +81,22 @@ def lift_of_probe(law, height, depth, up_body):
     return wet, wet / height, 0.0
 
 
+def angular_retention(inertia, rates):
+    """
+    Return C (3, 3), by rates (3,) in 1/s.
+
+    All turn at the least rate; what an axis decays faster than the one before takes as much of
+    the inertia that it and those above it have when the others are free to turn.
+    """
+    inverse, order = np.linalg.inv(inertia), np.argsort(rates)
+    damping, before = np.zeros((3, 3)), 0.0
+    for place, axis in enumerate(order):
+        faster = np.ix_(order[place:], order[place:])
+        damping[faster] += (rates[axis] - before) * np.linalg.inv(inverse[faster])
+        before = rates[axis]
+    return damping
+
+
 def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,) * 6):
     """
     Return the force in world axes and the torque in body axes about the centre of mass.
@@ -103,7 +118,8 @@ def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,)
         wet, share, along = lift_of_probe(hull.law, height, surface - probe[2], turn[2, 2])
         lift = most * share * UP
         ramp = np.clip(wet / (0.1 * height), 0.0, 1.0)
-        drag = -damping.probe * weight * ramp * (velocity + cross(spin_world, arm) - flow)
+        drag = -turn @ (damping.probe * weight * ramp * (
+            turn.T @ (velocity + cross(spin_world, arm) - flow)))
         force = force + lift + drag
         torque = torque + cross(arm + along * turn[:, 2], lift) + cross(arm, drag)
         wetness += weight * ramp
@@ -115,11 +131,12 @@ def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,)
     air_rates = -np.log(np.concatenate([damping.air_linear_retention,
                                         damping.air_angular_retention]))
     rates = wetness * water_rates + (1.0 - wetness) * air_rates
-    root = np.real(sqrtm(boat.inertia))
+    retained = (wetness * angular_retention(boat.inertia, water_rates[3:])
+                + (1.0 - wetness) * angular_retention(boat.inertia, air_rates[3:]))
     motion = np.concatenate([slip, spin])
     drag = wetness * (damping.linear + damping.quadratic * np.abs(motion)) * motion
     force = force - turn @ (boat.mass * rates[:3] * slip + drag[:3])
-    torque = torque - root @ (rates[3:] * (root @ spin)) - drag[3:]
+    torque = torque - retained @ spin - drag[3:]
 
     surge, sway, yaw = damping.wind
     ahead = np.array([yaw / sway if yaw else 0.0, 0.0, 0.0])

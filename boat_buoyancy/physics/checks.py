@@ -56,12 +56,15 @@ def vector(name, values, *lengths, above=None, at_least=None, at_most=None):
     """
     Return ``values`` as a read-only float array of shape (n,) with every number checked.
 
-    ``lengths`` are the lengths allowed; with none given, any.
+    ``lengths`` are the lengths allowed; with none given, any.  Where 1 is allowed, so is a number
+    that is in no list.
     """
     try:
         items = np.asarray(values).tolist()
     except (TypeError, ValueError):
         items = values
+    if 1 in lengths and isinstance(items, (int, float)) and not isinstance(items, bool):
+        items = [items]
     if not isinstance(items, list):
         raise ValueError(f'{name}: expected a list of numbers, got {shown(values)}')
     if lengths and len(items) not in lengths:

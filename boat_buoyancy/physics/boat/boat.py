@@ -36,7 +36,8 @@ class Damping:
     Everything that takes speed away, in body axes; see the parameter table for meaning.
 
     Main arguments: ``linear_retention`` and ``angular_retention`` (3,), part of the velocity
-    kept after one second in water; ``air_...``, the same in air; ``probe`` N s/m over all probes.
+    kept after one second in water; ``air_...``, the same in air; ``probe`` (3,) N s/m over all
+    probes.  Of these four and this one number stands for all three axes.
     Other arguments: ``linear`` (6,) N/(m/s) and N m/(rad/s), ``quadratic`` (6,) N/(m/s)^2 and
     N m/(rad/s)^2, in water only; ``wind`` (3,), surge and sway N/(m/s)^2 and yaw N m/(m/s)^2, see
     `forces.wind`.
@@ -46,18 +47,20 @@ class Damping:
     angular_retention: ArrayLike = (0.9,)
     air_linear_retention: ArrayLike = (0.999,)
     air_angular_retention: ArrayLike = (0.999,)
-    probe: float = 0.0
+    probe: ArrayLike = (0.0,)
     linear: ArrayLike = (0.0,) * 6
     quadratic: ArrayLike = (0.0,) * 6
     wind: ArrayLike = (0.0,) * 3
 
     def __post_init__(self):
-        """Store checked, read-only arrays; a single retention stands for all three axes."""
+        """Store checked, read-only arrays."""
         for name in ('linear_retention', 'angular_retention',
                      'air_linear_retention', 'air_angular_retention'):
             values = checks.vector(f'damping.{name}', getattr(self, name), 1, 3,
                                    above=0.0, at_most=1.0)
             object.__setattr__(self, name, np.broadcast_to(values, (3,)))
+        object.__setattr__(self, 'probe', np.broadcast_to(
+            checks.vector('damping.probe', self.probe, 1, 3, at_least=0.0), (3,)))
         for name in ('linear', 'quadratic'):
             values = checks.vector(f'damping.{name}', getattr(self, name), 6, at_least=0.0)
             object.__setattr__(self, name, values)
@@ -70,8 +73,6 @@ class Damping:
                              f'{FARTHEST_ARM:g} m times the sway, as it is the sway times how far '
                              f'ahead its force acts, got {wind.tolist()}')
         object.__setattr__(self, 'wind', wind)
-        object.__setattr__(self, 'probe',
-                           checks.number('damping.probe', self.probe, at_least=0.0))
 
     @property
     def wind_arm(self) -> float:
@@ -233,15 +234,20 @@ class Boat:
         """
         Return (2, 6, 6), the damping matrix of retention in water and in air, body axes.
 
-        Force -m d_i u_i and torque -I^1/2 diag(d) I^1/2 w: each axis decays at its own rate and
-        no torque ever feeds energy in, however the inertia is turned.
+        Force -m d_i u_i, m with the added mass in water; torque -C w, C = L diag(d) L^T with I = L L^T (Cholesky), the axes in
+        order of rising d.  Then I^-1 C = L^-T diag(d) L^T is triangular with d on its diagonal: a
+        rotation about a body axis decays at the rate of that axis, whatever the products of
+        inertia, and stirs none that decay faster.  As d_min I <= C <= d_max I, no torque ever
+        feeds energy in.
         """
-        moments, axes = self.principal
-        root = axes @ np.diag(np.sqrt(moments)) @ axes.T
         matrices = np.zeros((2, 6, 6))
-        for matrix, rates in zip(matrices, self.damping.rates):
-            matrix[:3, :3] = self.mass * np.diag(rates[:3])
-            matrix[3:, 3:] = root @ np.diag(rates[3:]) @ root
+        for matrix, rates, wetness in zip(matrices, self.damping.rates, (1.0, 0.0)):
+            mass = self.mass_matrix_at(wetness)
+            matrix[:3, :3] = mass[:3, :3] * rates[:3]
+            rising = np.argsort(rates[3:], kind='stable')
+            block = np.ix_(rising, rising)
+            root = np.linalg.cholesky(mass[3:, 3:][block])
+            matrix[3:, 3:][block] = root @ np.diag(rates[3:][rising]) @ root.T
         return matrices
 
 

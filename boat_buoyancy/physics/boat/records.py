@@ -82,7 +82,7 @@ def boat_record(boat):
     reach = np.linalg.norm(corners, axis=0).max(initial=0.0)
     return np.array((
         boat.mass, boat.weight, boat.center_of_mass, symmetric(boat.inertia),
-        moments, *axes.T, LAWS.index(hull.law), np.broadcast_to(damping.probe, (3,)),
+        moments, *axes.T, LAWS.index(hull.law), damping.probe,
         np.diag(water)[:3], symmetric(water[3:, 3:]), np.diag(air)[:3], symmetric(air[3:, 3:]),
         damping.linear, damping.quadratic, damping.wind[:2], damping.wind_arm,
         damping.quadratic.any() or damping.wind.any(), boat.added_mass, boat.added_mass.any(),

@@ -15,9 +15,10 @@
 """
 Damping: what takes speed away, all of it relative to the water, in heave as in the other five.
 
-At each probe, which damps heave above all (`probe_damping`; left out, `scene.build` gives 0.3 of
-critical), and of the whole body.  Given as a matrix C and not as numbers, so that every integrator
-can treat it its own way: the wrench is -C (u - u_water).  `load` sums it over the probes.
+At each probe, on each body axis its own (`probe_damping`; left out, `scene.build` gives 0.3 of
+critical in heave and hardly any along the water), and of the whole body.  Given as a matrix C and
+not as numbers, so that every integrator can treat it its own way: the wrench is -C (u - u_water).
+`load` sums it over the probes.
 """
 
 from typing import NamedTuple
@@ -61,7 +62,7 @@ def ramped(wet):
 
 @compiled
 def probe_damping(boat, probe, s):
-    """Return c_i = c w_i / sum w, times s: (3) N s/m of a probe, whose force is -c_i (v_i - w_i)."""
+    """Return c_i = c w_i / sum w, times s: (3) N s/m of a probe, with force -c_i (v_i - w_i)."""
     return scale(s, scale(probe.share, three(boat.probe_damping)))
 
 

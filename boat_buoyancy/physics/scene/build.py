@@ -39,8 +39,12 @@ from ..rotation import from_roll_pitch_yaw
 from ..sea import spectra
 from ..sea.waves import Sea
 
-# Part of critical damping in heave that the probes give a boat when nothing is asked for.
-PROBE_DAMPING_RATIO = 0.3
+# What the probes give a boat in surge, sway and heave when nothing is asked for, in parts of
+# critical damping in heave: an overshoot of some third there, and so little along the water that
+# in a period of heave a boat loses an eighth of its way, 1 - exp(-2 pi 2 0.01).
+PROBE_DAMPING_RATIOS = (0.01, 0.01, 0.3)
+# Retention that is left out.
+RETENTION = {'damping.linear_retention': (0.95,), 'damping.angular_retention': (0.9,)}
 # A single probe at the centre of mass has no spread to estimate an inertia from: a solid ball of
 # this radius in m is the least it gets.
 LEAST_BALL = 0.1
@@ -63,8 +67,9 @@ def assembled_boat(in_force, sea, like=None):
     ``like``, a `Boat` that differs in its damping at most, spares working out how it lies.
 
     Inertia: that of a solid body of the hull's shape, or for probes mass times their mean square
-    distance from the centre of mass.  Probe damping: 0.3 of critical in heave, 2 sqrt(K m), K at
-    rest.  The sentences are what is to be said of a mesh.
+    distance from the centre of mass.  Probe damping: that of `PROBE_DAMPING_RATIOS`, critical
+    2 sqrt(K m), K at rest; none where drag is given.  The sentences are what is to be said of a
+    mesh.
     """
     damping = Damping(**{name: in_force[f'damping.{name}'] for name in (
         'linear_retention', 'angular_retention', 'air_linear_retention',
@@ -72,9 +77,15 @@ def assembled_boat(in_force, sea, like=None):
     boat, said = _undamped_boat(in_force, sea) if like is None else (like.on(sea), ())
     probe = in_force['damping.probe']
     if probe is None:
-        probe = PROBE_DAMPING_RATIO * 2.0 * math.sqrt(
+        root = 0.0 if gives_drag(in_force) else math.sqrt(
             _heave_stiffness(boat) * (boat.mass + boat.added_mass[2]))
+        probe = [ratio * 2.0 * root for ratio in PROBE_DAMPING_RATIOS]
     return boat.with_damping(replace(damping, probe=probe)), said
+
+
+def gives_drag(in_force):
+    """Return True where drag is given that no other is to be made up beside."""
+    return any(in_force['damping.linear']) or any(in_force['damping.quadratic'])
 
 
 def _undamped_boat(in_force, sea):

@@ -33,7 +33,8 @@ def checked(name, value):
     """
     Return the value of one parameter as float, int, bool, str, or tuple of numbers or str.
 
-    An integer for a float is taken as the number; arrays may be lists, tuples or NumPy arrays.
+    An integer for a float is taken as the number; arrays may be lists, tuples or NumPy arrays, or
+    a number where they may be of one.
     ValueError says what was given and what is expected.
     """
     parameter = PARAMETERS[name]
@@ -57,7 +58,8 @@ def checked(name, value):
         return _integers(name, value, parameter)
     if parameter.kind == 'string_array':
         return _names(name, value)
-    numbers = _numbers(name, value)
+    alone = 1 in parameter.lengths and isinstance(value, (int, float))
+    numbers = _numbers(name, [value] if alone else value)
     if name == 'sea.waves':
         return tuple(checked_waves(numbers).ravel().tolist())
     return tuple(checks.vector(name, numbers, *parameter.lengths, **limits).tolist())

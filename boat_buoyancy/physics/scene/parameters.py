@@ -176,22 +176,27 @@ def _table():
         Parameter('probes.law', 'string', None, '',
                   'Force of a probe over its depth: spring, soft or column; without it column '
                   'for a hull shape, else spring.', choices=LAWS, **fixed),
-        _axes('damping.linear_retention', (0.95,),
+        _axes('damping.linear_retention', None,
               'Part of the velocity kept after one second in water, for all or for three body '
-              'axes. Higher glides farther; 1 = no drag but that of damping.probe.'),
-        _axes('damping.angular_retention', (0.9,),
+              'axes; without it 0.95, or 1 with damping.linear or damping.quadratic. Higher '
+              'glides farther; 1 = no drag.'),
+        _axes('damping.angular_retention', None,
               'Part of the angular velocity kept after one second in water, for all or for '
-              'three body axes. Higher keeps rolling longer; 1 = no drag.'),
+              'three body axes; without it 0.9, or 1 with damping.linear or damping.quadratic. '
+              'Higher keeps rolling longer; 1 = no drag.'),
         _axes('damping.air_linear_retention', (0.999,),
               'Part of the velocity kept after one second out of the water. Higher falls '
               'faster.'),
         _axes('damping.air_angular_retention', (0.999,),
               'Part of the angular velocity kept after one second out of the water. Higher '
               'tumbles longer.'),
-        Parameter('damping.probe', 'float', None, 'N·s/m',
-                  'Damping of the probes against the water, all together, shared by weight; '
-                  'without it 0.3 of critical in heave. Higher comes to rest sooner and '
-                  'follows the water more closely.', at_least=0.0, at_most=1e15),
+        Parameter('damping.probe', 'float_array', None, 'N·s/m',
+                  'Damping of the probes against the water, all together, shared by weight: one '
+                  'number, or three of surge, sway and heave; without it, in parts of critical '
+                  'damping in heave, 0.3 in heave and 0.01 in surge and sway, or none with '
+                  'damping.linear or damping.quadratic. Higher in heave comes to rest sooner and '
+                  'follows the water more closely, in surge and sway glides less.',
+                  at_least=0.0, at_most=1e15, lengths=(1, 3)),
         Parameter('damping.linear', 'float_array', (0.0,) * 6, 'N/(m/s), N·m/(rad/s)',
                   'Drag per speed in surge, sway, heave, roll, pitch, yaw. Higher is slower '
                   'for the same thrust.', at_least=0.0, at_most=1e15, lengths=(6,)),

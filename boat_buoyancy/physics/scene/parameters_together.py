@@ -25,6 +25,10 @@ from ..hydrostatics.warnings import dry_thruster_warnings, parting_warnings
 FULL_TURN = 6.2833
 # A start at a heel in degrees beyond this one is looked at.
 HEELING = 10.0
+AXES = ('surge', 'sway', 'heave', 'roll', 'pitch', 'yaw')
+# A boat that 1 N a kg, a tenth of its weight, takes no faster than this in m/s hardly moves: the
+# measured drag of the WAM-V lets it reach 0.81 m/s.
+STUCK = 0.5
 # Height over length at which a wave breaks in deep water (Michell 1893).
 BREAKING = 1.0 / 7.0
 PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
@@ -82,19 +86,7 @@ def without_use(in_force):
 
 def remarks(boat, sea, thrusters, given, in_force):
     """Return sentences about what was surely not meant, but for how the boat lies, in a tuple."""
-    warnings = []
-    drag = [name for name in ('damping.linear', 'damping.quadratic') if any(in_force[name])]
-    retained = [name for name in ('damping.linear_retention', 'damping.angular_retention')
-                if min(in_force[name]) < 1.0]
-    if drag and retained:
-        warnings.append(
-            f'Drag counts twice: {" and ".join(drag)} on top of {" and ".join(retained)}, so the '
-            'boat will be slower than the vehicle it was measured on; set retention to [1.0].')
-    if drag and 'damping.probe' not in given and boat.damping.probe > 0.0:
-        warnings.append(
-            f'Drag counts twice: {" and ".join(drag)} on top of damping.probe, which is '
-            f'{boat.damping.probe:.4g} N s/m when left out and brakes in all directions; set '
-            'damping.probe: 0.0 for the drag of a measured vehicle alone.')
+    warnings = [*_drag_twice(boat), *_stuck(boat, given)]
     warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
                  if name in given and given[name] != parameters.PARAMETERS[name].default]
     warnings += [f'{name} is {given[name]:g} Hz and rate is {in_force["rate"]:g} Hz: there is at '
@@ -120,6 +112,38 @@ def remarks(boat, sea, thrusters, given, in_force):
         warnings += parting_warnings(boat, heel) if heel > HEELING else ()
     return (*warnings, *sea_warnings(sea), *sampling_warnings(boat, sea, in_force),
             *dry_thruster_warnings(boat, thrusters))
+
+
+def _drag_twice(boat):
+    """Yield a sentence for each damping on an axis that has drag of its own."""
+    damping = boat.damping
+    drag = {f'damping.{name}': getattr(damping, name) > 0.0 for name in ('linear', 'quadratic')}
+    surge, sway, heave = damping.probe
+    x, y, z = boat.hull.share @ boat.probe_offsets ** 2
+    turning = surge * np.array([0.0, z, y]) + sway * np.array([z, 0.0, x]) + heave * np.array(
+        [y, x, 0.0])
+    kept = damping.rates[0] > 0.0
+    for name, cure, brakes in (
+            ('damping.linear_retention', '[1.0]', kept & (np.arange(6) < 3)),
+            ('damping.angular_retention', '[1.0]', kept & (np.arange(6) >= 3)),
+            ('damping.probe', '0.0', np.concatenate([damping.probe, turning]) > 0.0)):
+        twice = brakes & np.any(list(drag.values()), axis=0)
+        given = [source for source, axes in drag.items() if (twice & axes).any()]
+        if given:
+            axes = [axis for axis, counted in zip(AXES, twice) if counted]
+            yield (f'Drag counts twice in {", ".join(axes)}: {" and ".join(given)} on top of '
+                   f'{name}, so the boat will be slower than the vehicle it was measured on; '
+                   f'leave {name} out, or set it to {cure}.')
+
+
+def _stuck(boat, given):
+    """Yield a sentence for probes that were given so much damping that they hold the boat."""
+    surge, _, heave = boat.damping.probe
+    if 'damping.probe' in given and boat.mass < STUCK * surge:
+        yield ('damping.probe holds the boat back: pushed ahead by 1 N for each kg of its mass it '
+               f'gets no faster than {boat.mass / surge:.2g} m/s; for a boat that glides give '
+               'three numbers, of surge, sway and heave: damping.probe: '
+               f'{[0.0, 0.0, float(heave)]}.')
 
 
 def sea_warnings(sea):

@@ -22,7 +22,7 @@ import numpy as np
 
 from . import parameter_file, parameters
 from .build import (AHEAD, assembled_boat, assembled_sea, assembled_start, assembled_thrusters,
-                    MADE_OF, NO_LIMITS, start_attitude)
+                    gives_drag, MADE_OF, NO_LIMITS, RETENTION, start_attitude)
 from .parameter_values import checked
 from .parameters_together import check_together, PROBES_ONLY, remarks, without_use
 from ..boat.boat import Boat
@@ -186,9 +186,11 @@ def scene_from_values(values, before=None, folder='.'):
 
 
 def _in_force(given):
-    """Return {name: value} of every parameter, None where it is to be derived."""
-    return {name: given.get(name, parameter.default)
-            for name, parameter in parameters.PARAMETERS.items()}
+    """Return {name: value} of every parameter, None where it is to be derived from the boat."""
+    values = {name: given.get(name, parameter.default)
+              for name, parameter in parameters.PARAMETERS.items()}
+    return values | {name: (1.0,) if gives_drag(values) else kept
+                     for name, kept in RETENTION.items() if values[name] is None}
 
 
 def _kept(in_force, before):
@@ -221,7 +223,7 @@ def _complete(boat, given, in_force):
     derived = {
         'boat.inertia': tuple(float(boat.inertia[i]) for i in (
             (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))),
-        'damping.probe': boat.damping.probe,
+        'damping.probe': tuple(boat.damping.probe.tolist()),
         'hull.bottom': float(boat.hull.positions[0, 2]),
         'probes.weights': (1.0,) * len(boat.hull.positions),
         'probes.law': boat.hull.law, 'sea.waves': (),

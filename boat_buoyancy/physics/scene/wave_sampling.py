@@ -48,7 +48,7 @@ def sampling_warnings(boat, sea, values):
     shortest = f'the shortest wave that matters is {sea.shortest_length:.3g} m long'
     if hull.panels is not None:
         too_large = _between_corners(hull, sea.shortest_length, shortest)
-        if too_large or not boat.damping.probe:
+        if too_large or not boat.damping.probe.any():
             return too_large or _unreached(hull)
     if hull.surface is None:
         return _between_probes(hull.positions, amplitude, k, shortest)

@@ -173,13 +173,13 @@ def _creeping(boat, rest):
     if heave is None:
         return ()
     critical = 2.0 * rest.mass[2, 2] * heave
-    ratio = boat.damping.probe / critical
+    heavy = boat.damping.probe[2]
+    ratio = heavy / critical
     if ratio < HEAVY_DAMPING:
         return ()
     return (f'Probe damping is {ratio:.3g} times critical in heave: the boat will creep back to '
             'its draft instead of bobbing, and waves will drag it along; lower damping.probe '
-            f'from {boat.damping.probe:.4g} to at most {critical:.4g} N s/m (0.2 to 0.5 of that '
-            'is usual).',)
+            f'from {heavy:.4g} to at most {critical:.4g} N s/m (0.2 to 0.5 of that is usual).',)
 
 
 def _length(metres):

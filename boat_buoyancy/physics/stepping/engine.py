@@ -224,10 +224,12 @@ class Engine:
         self._begin(*self._records, *self._memory[:4], chosen, self.time)
         with np.errstate(over='ignore'):
             for i in chosen:
-                bound, boat = self._bounds[i], self.boats[i]
-                v, w = np.split(np.asarray(self._rows[i])[7:], 2)
-                self._reached[i] = max(np.sqrt(boat.mass * v @ v + w @ boat.inertia @ w),
-                                       slowest_reached(bound, 1.0 / self.rate))
+                boat, load = self.boats[i], read_load(self._loads[i])
+                u = np.array(self._rows[i][7:])
+                if boat.added_mass.any():
+                    u[:3] -= load.stream
+                norm = np.sqrt(u @ boat.mass_matrix_at(load.wetness) @ u)
+                self._reached[i] = max(norm, slowest_reached(self._bounds[i], 1.0 / self.rate))
 
 
 def different(keys):

@@ -64,5 +64,5 @@ def is_possible(bound, reached, motion):
     # The least moment stands for all three; what is infinite or no number makes the sum one.
     squared = (bound.mass * dot(v, v) + bound.least_moment * dot(w, w)
                + 0.0 * (a + b + c + d))
-    allowed = MARGIN * reached
+    allowed = MARGIN * reached + bound.carried
     return squared < allowed * allowed and abs(x) + abs(y) + abs(z) < FARTHEST
