@@ -102,6 +102,22 @@ def blown(drawn, seed):
         sea=drawn.sea.with_wind(random.normal(size=2) * log_uniform(random, 0.1, 50.0)))
 
 
+def afloat_in_waves(drawn, seed):
+    """
+    Return a `Draw` with added mass of up to 100 times the mass, and the wave force of two halves.
+
+    Half of the boats feel the waves down to some depth (Froude and Krylov), half are lifted by
+    the surface.
+    """
+    random, boat = np.random.default_rng([seed, 2]), drawn.boat
+    size = boat.size
+    added = boat.mass * log_uniform(random, 1e-2, 1e2, 6) * [1.0, 1.0, 1.0, *[size ** 2] * 3]
+    immersion = log_uniform(random, 1e-2, 1.0, len(boat.hull.share)) * size
+    return drawn._replace(boat=replace(
+        boat, added_mass=added * random.integers(0, 2, 6),
+        immersion=immersion if random.random() < 0.5 else ()))
+
+
 def inertia(random, scale):
     """Return a tensor that a rigid body can have, flat, long or round, turned anyhow."""
     a, b, c = scale * log_uniform(random, 1e-3, 0.3, 3)

@@ -22,7 +22,7 @@ from boat_buoyancy.physics.stepping.speed_bound import speed_norm, SpeedBound
 from boats import reference_boat, start, turned, undamped, wind_sea
 import numpy as np
 import pytest
-from random_boats import blown, draw
+from random_boats import afloat_in_waves, blown, draw
 
 PERIODS = 40
 # What floating-point sums of this length can be off by.
@@ -40,10 +40,10 @@ def speeds(drawn, *, integrator='implicit', substeps=1, periods=PERIODS):
     """Return |u|_M (periods + 1, boats) of a draw's fleet, no boat of which fails."""
     fleet = start(drawn.boat, drawn.state, sea=drawn.sea, rate=1.0 / drawn.step,
                   integrator=integrator, substeps=substeps)
-    norms = [speed_norm(drawn.boat, fleet.state)]
+    norms = [speed_norm(drawn.boat, fleet.state, fleet.wetness, drawn.sea.current)]
     for _ in range(periods):
         fleet.step(drawn.thrust)
-        norms.append(speed_norm(drawn.boat, fleet.state))
+        norms.append(speed_norm(drawn.boat, fleet.state, fleet.wetness, drawn.sea.current))
     assert not fleet.failed.any()
     return np.array(norms)
 
@@ -82,6 +82,11 @@ def test_no_step_of_implicit_passes_the_bound_of_two_thousand_random_boats():
 
 def test_no_step_of_implicit_passes_the_bound_in_wind_that_storms_at_random_boats():
     ratios = [worst_ratio(blown(draw(seed), seed)) for seed in range(250)]
+    assert max(ratios) <= 1.0 + ROUND_OFF
+
+
+def test_no_step_of_implicit_passes_the_bound_of_random_boats_that_take_water_along():
+    ratios = [worst_ratio(afloat_in_waves(draw(seed), seed)) for seed in range(250)]
     assert max(ratios) <= 1.0 + ROUND_OFF
 
 

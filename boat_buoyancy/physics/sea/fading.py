@@ -132,7 +132,13 @@ class FadingSea(Water):
         along = np.hypot(self.table[ALONG_X], self.table[ALONG_Y])
         return float(np.maximum(np.abs(begin), np.abs(end)) @ along
                      + STEEPEST / self.duration * np.abs(self.table[RISE]).sum()
-                     + max(np.hypot(*self.current_start), np.hypot(*self.new.current)))
+                     + self.fastest_current[0])
+
+    @property
+    def fastest_current(self):
+        """Return a bound of the current in m/s, and of its change in m/s^2, over the fade."""
+        return (float(max(np.hypot(*self.current_start), np.hypot(*self.new.current))), float(
+            STEEPEST / self.duration * np.hypot(*(self.new.current - self.current_start))))
 
     def with_wind(self, wind):
         """Return the same fade under another wind (2,) m/s."""

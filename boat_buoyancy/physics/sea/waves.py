@@ -110,6 +110,14 @@ class Water:
         return first(np.argsort(-k)), first(np.argsort(k))
 
     @cached_property
+    def fastest_acceleration(self) -> float:
+        """Return a bound of the water's orbital acceleration in m/s^2: sum a s^2 / tanh(kh)."""
+        greatest = np.maximum(np.abs(self.table[START]),
+                              np.abs(self.table[START] + self.table[RISE]))
+        along = np.hypot(self.table[ALONG_X], self.table[ALONG_Y])
+        return float(greatest @ (along * self.table[INTRINSIC]))
+
+    @cached_property
     def shortest_length(self) -> float:
         """Return the length in m of the shortest wave that counts, infinite in flat water."""
         if self.ends is None:
@@ -235,6 +243,11 @@ class Sea(Water):
         """Return a bound of the water speed at the surface in m/s: sum a s/tanh(kh) + current."""
         orbital = self.waves[:, 0] * self.intrinsic_frequency * self._horizontal_ratio
         return float(orbital.sum() + np.hypot(*self.current))
+
+    @property
+    def fastest_current(self) -> tuple[float, float]:
+        """Return a bound of the current in m/s, and of its change in m/s^2."""
+        return float(np.hypot(*self.current)), 0.0
 
     def with_wind(self, wind: ArrayLike) -> 'Sea':
         """Return the same water under another wind (2,) m/s."""

@@ -92,6 +92,11 @@ class Engine:
         """Return (B, n) m, how deep all probes are."""
         return np.array([depths[0] for depths in self._depths])
 
+    @property
+    def wetness(self):
+        """Return (B,), how far all boats are in the water, 0 to 1."""
+        return np.array([read_load(load).wetness for load in self._loads])
+
     def forces(self, boat):
         """Return the lift (n,) N of each probe of one boat."""
         hull, up = self.boats[boat].hull, rotation_matrix(self.row(boat)[3:7])[2]

@@ -98,6 +98,11 @@ class Fleet(Stepped):
         return self._engine.depths
 
     @property
+    def wetness(self) -> np.ndarray:
+        """Return (B,), how far each boat is in the water, 0 to 1: its probes' weighted mean."""
+        return self._engine.wetness
+
+    @property
     def failed(self) -> np.ndarray:
         """
         Return (B,) bool: the boats that left what physics allows.

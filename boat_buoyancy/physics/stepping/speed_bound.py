@@ -37,6 +37,9 @@ import math
 
 import numpy as np
 
+from ..boat.records import waterplane
+from ..rotation import rotation_matrix, to_body
+
 
 # A `SpeedBound` as the guard reads it in the step.
 BOUND = np.dtype([(name, 'f8') for name in (
@@ -149,7 +152,7 @@ def _turning_per_speed(boat):
     """
     middle, away, per_square = waterplane(boat)
     along, across = boat.hull.share @ np.abs(away)
-    return (float(np.linalg.norm(per_square * [across, along, math.hypot(along, across)])),
+    return (float(np.linalg.norm(per_square * [across, along, along + across])),
             float(np.linalg.norm(middle)))
 
 
