@@ -77,7 +77,7 @@ class BoatNode(ParameterNode):
             self.session = Session(scene)
         self._own_clock = scene.values['publish_clock']
         self.declare(scene)
-        LiveParameters(self, given, scene, self._change)
+        LiveParameters(self, given, scene, self.session.sea_with, self._change)
         self._paused = False
         # rclpy wants one severity for each line of code that it is called from.
         self._news = Throttle(lambda sentence: self.get_logger().info(sentence))

@@ -35,6 +35,7 @@ from ..physics.hydrostatics.righting_arm import (
 from ..physics.hydrostatics.warnings import HEELS, parting_warnings
 from ..physics.hydrostatics.wetted_surface import wetted_surface
 from ..physics.scene.scene import load_scene
+from ..physics.sea.steepness import steepness
 from ..physics.step_size.limits import max_stable_steps, notice_of
 
 PROGRAM = 'buoyancy_report'
@@ -148,17 +149,19 @@ def sea_figures(sea, periods):
     """
     Return what a boat of natural ``periods`` {name: s or None} should know of a `Sea`.
 
-    {name: number}, and ``meets``, the names of the motions that it excites; None in flat water.
+    {name: number}, and ``meets``, the names of the motions that it excites in a boat that drifts
+    with the current; None in flat water.
     """
     if sea.ends is None:
         return None
-    found = {'significant_height_m': sea.significant_height}
+    found = {'significant_height_m': sea.significant_height, 'steepness': steepness(sea)}
     for name, row in zip(('shortest', 'longest'), sea.ends):
         found[f'{name}_wave_m'] = float(2.0 * np.pi / np.hypot(*sea.wave_vector[row]))
         found[f'{name}_wave_s'] = float(sea.waves[row, 1])
     share = sea.waves[:, 0] ** 2 / np.sum(sea.waves[:, 0] ** 2)
+    felt = 2.0 * np.pi / sea.intrinsic_frequency
     found['meets'] = [name for name, period in periods.items() if period is not None and share[
-        np.abs(sea.waves[:, 1] - period) <= NEAR * period].sum() >= MUCH]
+        np.abs(felt - period) <= NEAR * period].sum() >= MUCH]
     return found
 
 

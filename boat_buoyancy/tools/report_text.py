@@ -95,8 +95,9 @@ def _sea(result):
         return
     ends = [f'{sea[f"{name}_wave_m"]:.3g} m ({sea[f"{name}_wave_s"]:.3g} s)'
             for name in ('shortest', 'longest')]
-    yield (f'Sea: significant height {sea["significant_height_m"]:.3g} m; the waves that matter '
-           f'are {" to ".join(dict.fromkeys(ends))} long')
+    yield (f'Sea: significant height {sea["significant_height_m"]:.3g} m, steepness '
+           f'{_ratio(sea["steepness"])}; the waves that matter are '
+           f'{" to ".join(dict.fromkeys(ends))} long')
     met = ' and '.join(f'{name} ({result[f"{name}_period_s"]:.3g} s)' for name in sea['meets'])
     yield (f'  They meet the natural period of {met}: expect large motions.' if met
            else '  No natural period meets them.')
@@ -187,6 +188,11 @@ def _filled(sentence, first, rest):
 def _heel(degrees, digits=1):
     """Return an angle of heel in words."""
     return f'{abs(degrees):.{digits}f} degrees to {"starboard" if degrees > 0.0 else "port"}'
+
+
+def _ratio(value):
+    """Return a part of 1 as sailors say it, 1/23."""
+    return f'1/{1.0 / value:{".0f" if value < 0.1 else ".2g"}}'
 
 
 def _counted(count, noun):
