@@ -123,7 +123,8 @@ def test_the_bound_is_the_published_formula():
     # at the body origin 0.5 m below the centre of mass, in a sea whose fastest water is 2 m/s.
     drag = {name: [np.exp(-0.5)] for name in ('angular_retention', 'air_linear_retention',
                                               'air_angular_retention')}
-    boat = reference_boat(damping=Damping(linear_retention=[np.exp(-0.7)], probe=1500.0, **drag,
+    boat = reference_boat(damping=Damping(linear_retention=[np.exp(-0.7)], **drag,
+                                          probe=[200.0, 1500.0, 900.0],
                                           linear=[40.0, 60.0, 20.0, 900.0, 0.0, 0.0]),
                           center_of_mass=(0.0, 0.0, 0.5))
     bound = SpeedBound.of(boat, Sea([[1.0, 2.0 * np.pi, 0.0, 0.0]], current=[0.6, 0.8]))
