@@ -89,7 +89,7 @@ def without_use(in_force):
 
 def remarks(boat, sea, thrusters, given, in_force):
     """Return sentences about what was surely not meant, but for how the boat lies, in a tuple."""
-    warnings = [*_drag_twice(boat), *_stuck(boat, given)]
+    warnings = [*_drag_twice(boat), *_stuck(boat, given), *_half_in_waves(boat, sea)]
     warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
                  if name in given and given[name] != parameters.PARAMETERS[name].default]
     warnings += [f'{name} is {given[name]:g} Hz and rate is {in_force["rate"]:g} Hz: there is at '
@@ -155,6 +155,18 @@ def _stuck(boat, given):
                f'gets no faster than {boat.mass / surge:.2g} m/s; for a boat that glides give '
                'three numbers, of surge, sway and heave: damping.probe: '
                f'{[0.0, 0.0, float(heave)]}.')
+
+
+def _half_in_waves(boat, sea):
+    """Yield a sentence for one half of what moves a hull in waves: they are right together."""
+    added = boat.added_mass.any()
+    if sea.ends is None or added == boat.follows_waves:
+        return
+    given, missing = (('added_mass', 'wave_force: froude_krylov') if added else
+                      ('wave_force: froude_krylov', 'added_mass'))
+    yield (f'In waves {given} alone is further from a real hull than neither, as its two errors '
+           f'no longer cancel: give {missing} and damping.linear as well '
+           '(buoyancy_hydrodynamics prints all three).')
 
 
 def sea_warnings(sea):
