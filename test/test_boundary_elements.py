@@ -21,6 +21,7 @@ from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.boat.boat import Boat
 from boat_buoyancy.physics.boat.shapes import mesh_shaped
 from boat_buoyancy.physics.boat.surface import Surface
+from boat_buoyancy.physics.hydrostatics.strip_theory import first_guess
 from boat_buoyancy.tools import hydrodynamics
 from boat_buoyancy.tools.boundary_elements import at_natural_periods, Hulls
 import numpy as np
@@ -41,7 +42,7 @@ HULME = [(0.2, 0.7938, 0.5515, 0.0082), (0.5, 0.5861, 0.6439, 0.0987),
 def sphere():
     """Return a sphere of radius 1 m that floats half under, its centre of mass 0.3 m down."""
     import trimesh
-    ball = trimesh.creation.icosphere(subdivisions=4)
+    ball = trimesh.creation.icosphere(subdivisions=3)
     surface = Surface(ball.vertices, ball.faces)
     mass = 0.5 * DENSITY * surface.volume
     hull = mesh_shaped(surface, (4, 4), 0.5 * surface.volume, specific_weight=DENSITY * GRAVITY)
@@ -61,7 +62,7 @@ def test_a_hemisphere_has_the_added_mass_and_damping_that_hulme_published(
 
 
 def test_roll_and_pitch_of_a_sphere_are_sway_and_surge_below_its_middle(sphere):
-    # A sphere that turns about its middle moves no water; about a point 0.3 m below, it goes along.
+    # A sphere moves no water as it turns about its middle; about a point below, it goes along.
     added, _ = Hulls(sphere).radiation(2.0)
     assert np.diag(added)[3:5] == pytest.approx(np.diag(added)[[1, 0]] * 0.3 ** 2, rel=0.02)
 
@@ -77,13 +78,26 @@ def test_the_barge_is_that_of_an_independent_run_of_the_method():
 
 
 def test_hulls_side_by_side_are_taken_one_by_one():
-    one = {'hull.size': [4.0, 0.5, 1.0], 'boat.mass': 500.0, 'boat.center_of_mass': [0.0, 0.0, -1.0]}
+    one = {'hull.size': [4.0, 0.5, 1.0], 'boat.mass': 500.0,
+           'boat.center_of_mass': [0.0, 0.0, -1.0]}
     two = {**one, 'hull.shape': 'twin', 'hull.spacing': 3.0, 'boat.mass': 1000.0}
-    single, both = (Hulls(load_scene(values).boat, 500).radiation(1.5)[0] for values in (one, two))
+    single, both = (Hulls(load_scene(values).boat, 500).radiation(1.5)[0]
+                    for values in (one, two))
     assert np.diag(both)[[0, 1, 2, 4]] == pytest.approx(
-        2.0 * np.diag(single)[[0, 1, 2, 4]], rel=1e-6)
-    assert both[3, 3] == pytest.approx(2.0 * (single[3, 3] + single[2, 2] * 1.5 ** 2), rel=1e-6)
-    assert both[5, 5] == pytest.approx(2.0 * (single[5, 5] + single[0, 0] * 1.5 ** 2), rel=1e-6)
+        2.0 * np.diag(single)[[0, 1, 2, 4]], rel=1e-4)
+    assert both[3, 3] == pytest.approx(2.0 * (single[3, 3] + single[2, 2] * 1.5 ** 2), rel=1e-4)
+    assert both[5, 5] == pytest.approx(2.0 * (single[5, 5] + single[0, 0] * 1.5 ** 2), rel=1e-4)
+
+
+@pytest.mark.parametrize('name', ['wam_v', 'rib'])
+def test_strips_are_as_far_from_it_as_is_said_of_hulls_that_are_not_stored(name):
+    boat = load_scene(ROOT / 'config' / f'{name}.yaml').boat
+    guess, found = first_guess(boat), at_natural_periods(boat, 600)
+    for values, by_strips, trust in (
+            (found.added_mass, guess[0], hydrodynamics.ADDED_MASS_TRUST),
+            (found.damping, guess[1], hydrodynamics.DAMPING_TRUST)):
+        least, most = np.transpose(trust)
+        assert ((least <= values / by_strips) & (values / by_strips <= most)).all()
 
 
 def test_the_program_prints_them_and_how_much_the_panels_matter(capsys):
@@ -95,4 +109,4 @@ def test_the_program_prints_them_and_how_much_the_panels_matter(capsys):
         row, = (line.split() for line in said.splitlines() if line.startswith(f'# {name} '))
         assert float(row[3]) == pytest.approx(period, rel=0.01)
     assert len(values['added_mass']) == len(values['damping.linear']) == 6
-    assert 'changed mass with added mass by' in ' '.join(said.replace('#', '').split())
+    assert 'mass and added mass changed by at most' in ' '.join(said.replace('#', '').split())

@@ -19,6 +19,7 @@ from pathlib import Path
 import re
 
 from boat_buoyancy.physics import load_scene
+from boat_buoyancy.physics.boat.clipping import submerged
 from boat_buoyancy.physics.hydrostatics.moving_water import modes_with
 from boat_buoyancy.physics.hydrostatics.strip_theory import first_guess
 from boat_buoyancy.tools import boundary_elements, chart, hydrodynamics
@@ -59,14 +60,16 @@ def test_strips_are_as_far_from_the_boundary_element_method_as_is_said(name):
 
 
 def test_the_stored_barge_is_that_of_an_independent_run_of_the_method():
-    # Both runs have some thousand panels, which leaves one or two per cent of a response.
+    # Both have some thousand panels, which leaves a per cent of a response.  The other one took GM
+    # from its panels, 0.93 m where the box has 0.95: roll resonates 1 % earlier, and as 1 % is a
+    # fifth of its width of 2 x 0.05, up to a fifth of its peak of 4 times the slope is off.
     ours, theirs = stored('barge'), json.loads((ROOT / 'test/data/bem_barge.json').read_text())
     assert ours['columns'] == theirs['columns']
     rows, others = np.array(ours['rows']), np.array(theirs['rows'])
     assert rows[:, :2].tolist() == others[:, :2].tolist()
     inside = (rows[:, 0] >= 2.0) & (rows[:, 0] <= 12.0)
-    error = np.sqrt(np.mean((rows - others)[inside, 2:5] ** 2, axis=0))
-    assert (error <= 0.02).all()
+    error = np.sqrt(np.mean((rows - others)[inside, 2:] ** 2, axis=0))
+    assert (np.delete(error, 1) <= 0.01).all() and error[1] <= 0.1
     assert ours['added_mass'] == pytest.approx(theirs['added_mass'], rel=0.03)
 
 
@@ -169,8 +172,8 @@ def test_two_hulls_are_two_surfaces_of_about_as_many_panels_as_asked_for():
     assert [500 <= len(hull.triangles) <= 2000 for hull in hulls] == [True, True]
     sides = [np.unique(np.sign(hull.corners[:, 1])).tolist() for hull in hulls]
     assert sorted(sides) == [[-1.0], [1.0]]
-    # Archimedes: what both displace carries the boat, less the lid, which is at z = 0.
-    assert sum(hull.volume for hull in hulls) == pytest.approx(
+    # Archimedes: what both displace carries the boat, the lid left out.
+    assert sum(submerged(hull.facets)[0] for hull in hulls) == pytest.approx(
         boat.weight / boat.hull.specific_weight, rel=1e-6)
 
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Added mass by strips is the integrals of its textbook, and periods with it are those of K and M."""
+"""Added mass by strips is that of the textbook, and periods with it are those of K and M."""
 
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.boat.surface import box_surface, joined

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-Print the water that moves along with a boat as parameters: ``buoyancy_hydrodynamics SCENE [--bem]``.
+Print added mass and damping of a boat to paste: ``buoyancy_hydrodynamics SCENE [--bem]``.
 
-Added mass and damping of its hull, by strips within a second or by a boundary element method.
+By strips of its hull within a second, or by a boundary element method.
 """
 
 import argparse
@@ -34,7 +34,8 @@ PROGRAM = 'buoyancy_hydrodynamics'
 ROLL_RATIO = 0.05
 # What the boundary element method finds, over what the strips do: least and most of a box, a
 # barge, a Wigley hull, a rigid inflatable and a catamaran of two slender hulls.
-ADDED_MASS_TRUST = ((0.18, 1.7), (0.72, 2.3), (0.63, 0.87), (0.31, 0.86), (0.57, 0.84), (0.61, 2.1))
+ADDED_MASS_TRUST = (
+    (0.17, 1.7), (0.72, 2.3), (0.63, 0.87), (0.31, 0.86), (0.57, 0.84), (0.61, 2.1))
 DAMPING_TRUST = ((0.39, 1.9), (0.15, 2.2), (0.73, 1.7), (0.02, 1.1), (0.61, 1.8), (0.06, 6.0))
 # How many times fewer panels tell how much the number of them matters.
 COARSER = 4
@@ -48,11 +49,12 @@ def by_strips(boat, roll_ratio):
     """
     added, damping = first_guess(boat, roll_ratio)
     return added, damping, [
-        'How far to trust them: a boundary element method (--bem) gave these times as much for a',
-        'box, a barge, a Wigley hull, a RIB and a catamaran; roll damping is without friction:',
-        *(f'{name:6}  added mass {mass[0]:4} to {mass[1]:4}    damping {drag[0]:4} to {drag[1]:4}'
-          for name, mass, drag in zip(COORDINATES, ADDED_MASS_TRUST, DAMPING_TRUST)),
-        'Added mass of heave that is 20 % off puts 6 to 10 % on the error of heave in waves.']
+        'How far to trust them: first guesses. Of a box, a barge, a Wigley hull, a RIB and a',
+        'catamaran a boundary element method (--bem) gives so many times as much:',
+        '        added mass      damping',
+        *(f'{name:6}  {mass[0]:4} to {mass[1]:4}    {drag[0]:4} to {drag[1]:4}'
+          + ' without friction' * (name == 'roll')
+          for name, mass, drag in zip(COORDINATES, ADDED_MASS_TRUST, DAMPING_TRUST))]
 
 
 def by_boundary_elements(boat, roll_ratio, tell):
@@ -70,11 +72,11 @@ def by_boundary_elements(boat, roll_ratio, tell):
     return fine.added_mass, damping, [
         'Each holds at its own natural period: '
         + ', '.join(f'{" and ".join(names)} {period:.3g} s' for period, names in own.items()),
-        f'How far to trust them: {fine.panels} panels in place of {coarse.panels} changed mass '
-        f'with added mass by {100 * mass.max():.1f} %',
-        f'at most, damping by {100 * drag.max():.1f} % of critical. The method knows small '
-        'motions in deep water, no',
-        'friction and no speed; hulls side by side were taken one by one.']
+        f'How far to trust them: with {fine.panels} panels in place of {coarse.panels}, mass and '
+        'added mass changed by',
+        f'at most {100 * mass.max():.1f} %, damping by {100 * drag.max():.1f} % of critical. '
+        'Small motions in deep water, without',
+        'friction and speed; hulls side by side one by one.']
 
 
 def text(source, boat, added, damping, roll_ratio, trust):
@@ -95,11 +97,11 @@ def text(source, boat, added, damping, roll_ratio, trust):
           f'{after[name].damping_ratio:15.3f}' for name in MODES),
         *(f'# {line}' for line in (
             *trust,
-            f'Friction and eddies take {roll_ratio:g} of critical of roll in it (--roll-damping): '
-            'let the boat roll and measure.',
-            'Drag in surge, sway and yaw is that of waves at that period; for driving straight '
-            'and turning, what',
-            'trials show is better.',
+            f'Damping of roll: {roll_ratio:g} of critical are for friction and eddies '
+            '(--roll-damping).',
+            'Damping of surge, sway and yaw: of the waves that it makes as it rolls and pitches; '
+            'measure',
+            'how it drives and turns, and take that in its place.',
             *(f'Came out below 0 and was set to 0: {name}.' for name in dict.fromkeys(below))))])
 
 

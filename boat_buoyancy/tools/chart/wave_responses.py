@@ -43,7 +43,7 @@ PERIODS = (*np.arange(1.75, 6.5, 0.25).tolist(), 6.5, 7.0, 7.5, 8.0, 9.0, 10.0, 
 HEADINGS = (0, 45, 90)
 # Of critical, what friction and eddies take of roll.
 VISCOUS_ROLL = 0.05
-PANELS = 2000
+PANELS = 1500
 
 
 def table(boat, panels=PANELS, tell=lambda text: None):
