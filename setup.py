@@ -22,7 +22,8 @@ setup(
     name=package_name,
     version='0.2.0',
     packages=find_packages(include=[package_name, package_name + '.*']),
-    package_data={package_name: ['py.typed'], package_name + '.ros': ['fast_dds.xml']},
+    package_data={package_name: ['py.typed'], package_name + '.ros': ['fast_dds.xml'],
+                  package_name + '.tools.chart': ['responses/*.json']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
@@ -43,6 +44,8 @@ setup(
         'fast': ['numba'],
         # Reads hulls from mesh files.
         'mesh': ['trimesh'],
+        # Computes added mass and damping by a boundary element method.
+        'bem': ['capytaine>=3.0'],
         'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy', 'trimesh'],
     },
     zip_safe=False,
@@ -56,6 +59,7 @@ setup(
             'same_sea = boat_buoyancy.ros.same_sea:main',
             'buoyancy_report = boat_buoyancy.tools.report:main',
             'buoyancy_simulate = boat_buoyancy.tools.simulate:main',
+            'buoyancy_hydrodynamics = boat_buoyancy.tools.hydrodynamics:main',
             'buoyancy_chart = boat_buoyancy.tools.chart.main:main',
         ],
     },

@@ -22,6 +22,9 @@ import warnings
 
 from ..physics.stepping.simulation import SimulationError
 
+# Modules of the extras that Ubuntu 24.04 has no package of.
+NOT_IN_UBUNTU = ('capytaine',)
+
 
 class OneLineParser(argparse.ArgumentParser):
     """An argument parser that says what is wrong in one line and ends with exit code 2."""
@@ -57,10 +60,11 @@ def require_extra(extra, what, *modules):
         except ImportError as error:
             missing[module] = error
     if missing:
-        packages = ' '.join(f'python3-{module}' for module in missing)
+        packages = [f'python3-{module}' for module in missing if module not in NOT_IN_UBUNTU]
         raise ValueError(
             f'{what} needs {" and ".join(missing)} ({"; ".join(map(str, missing.values()))}): '
-            f'pip install "boat_buoyancy[{extra}]", or on Ubuntu apt install {packages}')
+            f'pip install "boat_buoyancy[{extra}]"'
+            + (f', or on Ubuntu apt install {" ".join(packages)}' if packages else ''))
 
 
 def check_picture(option, path, endings):
@@ -89,8 +93,8 @@ def run(program, work):
     Return the exit code of a program whose ``work`` is a function without arguments.
 
     0; or 2 after one line on standard error for input that is wrong (ValueError, OSError) and a
-    motion that leaves what physics allows (SimulationError); or 130 when interrupted.  A reader
-    that closes the pipe early, as ``head`` does, is no error.
+    motion that leaves what physics allows (SimulationError); or 130 after one when interrupted.
+    A reader that closes the pipe early, as ``head`` does, is no error.
     """
     try:
         with warnings.catch_warnings():
@@ -108,6 +112,7 @@ def run(program, work):
     except (ValueError, SimulationError) as error:
         return _refuse(program, error)
     except KeyboardInterrupt:
+        print(f'{program}: interrupted', file=sys.stderr)
         return 130
     return 0
 
