@@ -204,8 +204,8 @@ def _table():
                   'Drag per speed squared in surge, sway, heave, roll, pitch, yaw. Higher is '
                   'slower at high speed.', at_least=0.0, at_most=1e15, lengths=(6,)),
         Parameter('added_mass', 'float_array', (0.0,) * 6, 'kg, kg·m²',
-                  'Mass of the water that moves along in surge, sway, heave, roll, pitch, yaw, all '
-                  'wet, about the centre of mass; for waves together with wave_force: '
+                  'Mass of the water that moves along in surge, sway, heave, roll, pitch, yaw, '
+                  'all wet, about the centre of mass; for waves together with wave_force: '
                   'froude_krylov. Higher moves more slowly.', at_least=0.0, at_most=1e18,
                   lengths=(6,)),
         Parameter('wave_force', 'string', 'hydrostatic', '',
