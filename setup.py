@@ -43,7 +43,10 @@ setup(
         'fast': ['numba'],
         # Reads hulls from mesh files.
         'mesh': ['trimesh'],
-        'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy', 'trimesh'],
+        # Writes recordings; MCAP's own reader reads them back in the tests.
+        'bag': ['rosbags'],
+        'test': ['hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest', 'pytest-xdist',
+                 'rosbags', 'scipy', 'trimesh'],
     },
     zip_safe=False,
     maintainer='boat_buoyancy maintainers',

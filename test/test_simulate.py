@@ -20,7 +20,7 @@ from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.boat.state import body_frame, center_of_mass_state
 from boat_buoyancy.physics.rotation import to_roll_pitch_yaw
 from boat_buoyancy.physics.stepping.simulation import periods_of, Simulation
-from boat_buoyancy.tools import animate, plot, simulate
+from boat_buoyancy.tools import animate, hull_outline, plot, simulate
 from boats import turned
 import numpy as np
 from PIL import Image
@@ -227,31 +227,31 @@ def test_long_animations_are_played_faster():
 
 def test_hull_of_a_box_is_drawn_as_that_box():
     for probes in ([2, 2], [4, 3]):
-        corners, = animate.hull_shells(load_scene({
+        corners, = hull_outline.hull_shells(load_scene({
             'hull.size': [5.0, 2.0, 0.8], 'hull.probes': probes, 'hull.bottom': -0.3}).boat)
         assert corners.min(axis=0) == pytest.approx((-2.5, -1.0, -0.3), abs=1e-12)
         assert corners.max(axis=0) == pytest.approx((2.5, 1.0, 0.5), abs=1e-12)
 
 
 def test_each_hull_of_a_twin_is_drawn_by_itself():
-    shells = animate.hull_shells(load_scene({
+    shells = hull_outline.hull_shells(load_scene({
         'hull.shape': 'twin', 'hull.size': [5.0, 0.5, 0.8], 'hull.spacing': 2.0}).boat)
     assert [corners[:, 1].min() for corners in shells] == pytest.approx([-1.25, 0.75])
 
 
 def test_hull_of_probes_reaches_to_the_outermost():
-    corners, = animate.hull_shells(load_scene({
+    corners, = hull_outline.hull_shells(load_scene({
         'probes.positions': [1.0, 0.5, -0.1, -2.0, 0.0, 0.0, 1.0, -0.5, -0.1],
         'probes.stiffness': 4.0}).boat)
     assert corners.min(axis=0) == pytest.approx((-2.0, -0.5, -0.1))
     assert corners.max(axis=0) == pytest.approx((1.0, 0.5, 0.25))
-    lonely, = animate.hull_shells(load_scene({'probes.positions': [0.0, 0.0, 0.0]}).boat)
+    lonely, = hull_outline.hull_shells(load_scene({'probes.positions': [0.0, 0.0, 0.0]}).boat)
     assert (np.ptp(lonely, axis=0) > 0.1).all()
 
 
 def test_outline_is_the_convex_hull():
     points = np.random.default_rng(1).normal(size=(200, 2))
-    line = animate.outline(points)
+    line = hull_outline.outline(points)
     edges = np.roll(line, -1, axis=0) - line
     turns = edges[:, 0] * np.roll(edges, -1, axis=0)[:, 1] - (
         edges[:, 1] * np.roll(edges, -1, axis=0)[:, 0])
