@@ -95,8 +95,8 @@ def run(program, work):
     Return the exit code of a program whose ``work`` is a function without arguments.
 
     0; or 2 after one line on standard error for input that is wrong (ValueError, OSError) and a
-    motion that leaves what physics allows (SimulationError); or 130 after one when interrupted.  A reader
-    that closes the pipe early, as ``head`` does, is no error.
+    motion that leaves what physics allows (SimulationError); or 130 after one when interrupted.
+    A reader that closes the pipe early, as ``head`` does, is no error.
     """
     try:
         with warnings.catch_warnings():

@@ -44,7 +44,8 @@ def record(path, scene, simulation, duration, thrust, progress=None):
     Return the `Trajectory` of `Simulation.run`, and write what a node would publish to a file.
 
     Main arguments: ``path`` of the file; ``scene`` and a ``simulation`` of it, perhaps at another
-    rate; ``duration`` s; ``thrust`` and ``progress`` as of `Simulation.run`, but for rows of thrust.
+    rate; ``duration`` s; ``thrust`` (6,) or a function, as of `Simulation.run`.
+    Other arguments: ``progress`` as there.
     A message for the start and after every period, stamped with the simulated time.  A run that
     fails or is interrupted leaves no file.
     """
