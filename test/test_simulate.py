@@ -327,7 +327,8 @@ def test_thrust_is_drawn_as_it_turns_with_the_boat():
     animate.draw_above(axes, run, view, 0)
     arrow, = axes.texts
     # Ahead is north.
-    assert np.subtract(arrow.xy, arrow.xyann) == pytest.approx((0.0, 1.5 * view.size))
+    assert np.subtract(arrow.xy, arrow.xyann) == pytest.approx(
+        (0.0, animate.ARROW * view.size))
 
 
 # Each is told to end when it shows that it is under way.

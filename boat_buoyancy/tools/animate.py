@@ -33,7 +33,9 @@ LEVELS, GRID = 9, 60
 WIDER = 2.7
 # As many sizes of the boat from above that the whole track may take: then the water stands still
 # and the boat goes over it. A longer track is followed.
-MOST_SIZES = 5.0
+MOST_SIZES = 7.0
+# Length of the arrow of the thrust, and the room for it about the boat, in sizes of the boat.
+ARROW, ROOM = 1.5, 1.6
 
 
 @dataclass(frozen=True)
@@ -96,7 +98,7 @@ def write(path, run, simulation, title, thrust, progress):
         frames.append(Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy()))
     # One palette for all frames: what does not move is not written again.
     palette = with_white(frames[len(frames) // 2].quantize(
-        64, method=Image.Quantize.MAXCOVERAGE))
+        128, method=Image.Quantize.MAXCOVERAGE))
     frames = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     frames[0].save(path, save_all=True, append_images=frames[1:], loop=0, optimize=False,
                    duration=FRAME_MILLISECONDS)
@@ -126,16 +128,16 @@ def view_of(run, simulation, thrust=(0.0,) * 6):
     low = min(heights.min() - 0.7 * size, -swing - 0.3 * size)
     high = max(heights.max() + 0.7 * size, swing + 0.3 * size)
     # The views stand one above the other, equally wide and high.
-    reach = max(1.7 * size, (high - low) * WIDER / 2)
+    reach = max(ROOM * size, (high - low) * WIDER / 2)
     room = reach / WIDER - (high - low) / 2
     west_south, east_north = run.position[:, :2].min(axis=0), run.position[:, :2].max(axis=0)
-    track = ((east_north - west_south) / 2 + 1.2 * size) * (1.0, WIDER)
+    track = ((east_north - west_south) / 2 + ROOM * size) * (1.0, WIDER)
     fits = track.max() <= MOST_SIZES * size
     return View(
         shells, simulation.boat.hull.positions, size, reach, low - room, high + room,
-        max(track.max(), reach) if fits else 0.6 * MOST_SIZES * size,
+        max(track.max(), reach) if fits else ROOM * WIDER * size,
         (west_south + east_north) / 2 if fits else None, swing,
-        colormaps['Blues_r'](np.linspace(0.3, 0.95, LEVELS + 1)), np.array(thrust[:3], float),
+        colormaps['Blues_r'](np.linspace(0.3, 0.9, LEVELS + 1)), np.array(thrust[:3], float),
         rows, step / FRAME_MILLISECONDS * 1000.0, simulation.sea)
 
 
@@ -151,8 +153,9 @@ def legend_of(view):
         handles.append(Line2D([], [], color=PUSH, linestyle='', marker=r'$\rightarrow$',
                               markersize=12, label=f'thrust {np.linalg.norm(view.push):.4g} N'))
     if view.swing > 0.0:
-        handles += [Patch(facecolor=view.shades[-1], label=f'crest, {view.swing:+.2g} m'),
-                    Patch(facecolor=view.shades[0], label=f'trough, {-view.swing:+.2g} m')]
+        handles += [Patch(facecolor=shade, edgecolor='0.5', label=f'{name}, {height:+.2g} m')
+                    for name, shade, height in (('crest', view.shades[-1], view.swing),
+                                                ('trough', view.shades[0], -view.swing))]
     return handles
 
 
@@ -224,8 +227,8 @@ def draw_probes(axes, x, y, depths):
 
 
 def draw_push(axes, view, start, push):
-    """Draw a thrust (2,) N, as seen, as an arrow from ``start``, the longer the more of it."""
+    """Draw a thrust (2,) N as an arrow from ``start``, shorter the more it points at the eye."""
     if np.linalg.norm(push) > 0.1 * np.linalg.norm(view.push):
-        end = start + 1.5 * view.size * push / np.linalg.norm(view.push)
-        axes.annotate('', end, start, zorder=6, arrowprops={
+        end = start + ARROW * view.size * push / np.linalg.norm(view.push)
+        axes.annotate('', end, start, annotation_clip=False, zorder=6, arrowprops={
             'arrowstyle': '-|>', 'color': PUSH, 'linewidth': 2.0, 'shrinkA': 0.0, 'shrinkB': 0.0})
