@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Recordings as another reader finds them: the MCAP project's own, which has no code of the writer."""
+"""Recordings as another reader finds them: MCAP's own, which shares no code with the writer."""
 
 import math
 from pathlib import Path

@@ -354,6 +354,7 @@ def test_long_work_shows_how_far_it_is_and_ends_with_one_line_on_ctrl_c(
 
 def test_progress_is_silent_at_first_and_then_on_one_line(monkeypatch):
     class Terminal(StringIO):
+
         def isatty(self):
             return True
 

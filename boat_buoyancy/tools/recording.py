@@ -29,7 +29,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ..physics import Scene, Simulation
+from ..physics import Simulation
 from ..physics.scene.parameters import NODE_NAME
 from ..ros import transforms
 from ..ros.messages import Outputs
@@ -50,7 +50,8 @@ def record(path, scene, simulation, duration, thrust, progress=None):
     fails or is interrupted leaves no file.
     """
     scene = replace(scene, rate=simulation.rate)
-    moment = Moment(scene, simulation)
+    moment = Moment(simulation, Grid(simulation.rate),
+                    tuple(scene.boat.center_of_mass.tolist()))
     with written(path, lambda: moment.stamp) as topics:
         outputs = Outputs(topics, scene, sensors_of(topics, scene),
                           transforms.topics_of(topics, scene, moment.stamp))
@@ -70,22 +71,19 @@ class Moment:
     """
     The present of a run, with what `Outputs` asks of a `Session`.
 
-    ``wrench`` (6,), the thrust of the last period, None before the first.
+    ``grid`` of the stamps; ``center_of_mass`` (3) m in the body frame; ``wrench`` (6,), the
+    thrust of the last period, None before the first.
     """
 
-    scene: Scene
     simulation: Simulation
+    grid: Grid
+    center_of_mass: tuple
     wrench: object = None
-
-    @property
-    def center_of_mass(self):
-        """Return the centre of mass in the body frame, three floats in m."""
-        return tuple(self.scene.boat.center_of_mass.tolist())
 
     @property
     def stamp(self):
         """Return the simulated time in ns."""
-        return Grid(self.simulation.rate).stamp(self.simulation.steps)
+        return self.grid.stamp(self.simulation.steps)
 
 
 @contextmanager
