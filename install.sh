@@ -18,6 +18,7 @@ needs no root. Extras, with commas between:
   fast   Numba, which compiles the step; ros and chart take it along
   mesh   trimesh, which reads hulls from mesh files; ros and chart take it along
   bem    capytaine, for buoyancy_hydrodynamics --bem
+  bag    rosbags, which writes recordings (buoyancy_simulate --mcap); no ROS needed
 
   ./install.sh ros         the node
   ./install.sh ros,test    the node, and what the tests need
@@ -58,8 +59,9 @@ esac
 [ $# -le 1 ] || fail "expected one list of extras with commas between, got '$*' (try --help)"
 for extra in $(printf '%s' "$extras" | tr , ' '); do
   case $extra in
-    ros|chart|test|fast|mesh|bem) ;;
-    *) fail "expected extras out of ros, chart, test, fast, mesh and bem, got '$extra' (try --help)" ;;
+    ros|chart|test|fast|mesh|bem|bag) ;;
+    *) fail "expected extras out of ros, chart, test, fast, mesh, bem and bag, got '$extra'" \
+         '(try --help)' ;;
   esac
 done
 case ",$extras," in
@@ -75,8 +77,9 @@ case ",$extras," in *,ros,*) size=$((size + 165)) ;; esac
 case ",$extras," in *,fast,*) size=$((size + 205)) ;; esac
 case ",$extras," in *,mesh,*|*,test,*) size=$((size + 10)) ;; esac
 case ",$extras," in *,bem,*) size=$((size + 115)) ;; esac
+case ",$extras," in *,bag,*|*,test,*) size=$((size + 25)) ;; esac
 case ",$extras," in
-  *,test,*) size=$((size + 265)) ;;
+  *,test,*) size=$((size + 290)) ;;
   *,chart,*) size=$((size + 245)) ;;
   *,bem,*) size=$((size + 145)) ;;
 esac

@@ -46,7 +46,10 @@ setup(
         'mesh': ['trimesh'],
         # Computes added mass and damping by a boundary element method.
         'bem': ['capytaine>=3.0'],
-        'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy', 'trimesh'],
+        # Writes recordings; MCAP's own reader reads them back in the tests.
+        'bag': ['rosbags'],
+        'test': ['hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest', 'pytest-xdist',
+                 'rosbags', 'scipy', 'trimesh'],
     },
     zip_safe=False,
     maintainer='boat_buoyancy maintainers',

@@ -23,7 +23,7 @@ import warnings
 from ..physics.stepping.simulation import SimulationError
 
 # Modules of the extras that Ubuntu 24.04 has no package of.
-NOT_IN_UBUNTU = ('capytaine',)
+NOT_IN_UBUNTU = ('capytaine', 'rosbags')
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -67,16 +67,18 @@ def require_extra(extra, what, *modules):
             + (f', or on Ubuntu apt install {" ".join(packages)}' if packages else ''))
 
 
-def check_picture(option, path, endings):
+def check_output(option, path, endings, extra='chart', module='matplotlib'):
     """
-    Raise ValueError or OSError now for a picture that could not be written later.
+    Raise ValueError or OSError now for a file that could not be written later.
 
-    ``option`` asks for it, as '--plot'; ``path`` of its file; ``endings`` that it may have.
+    Main arguments: ``option`` asks for it, as '--plot'; ``path`` of the file; ``endings`` that it
+    may have.
+    Other arguments: ``extra`` and its ``module``, which write it.
     """
     if path.suffix.lower() not in endings:
         raise ValueError(f'{option}: expected a file name that ends in {" or ".join(endings)}, '
                          f'got {str(path)!r}')
-    require_extra('chart', option, 'matplotlib')
+    require_extra(extra, option, module)
     check_writable(path)
 
 

@@ -197,7 +197,7 @@ def main(arguments=None):
         if compiling := notice_of(scene.boat):
             print(f'{PROGRAM}: {compiling}', file=sys.stderr)
         if given.plot is not None:
-            command_line.check_picture('--plot', given.plot, ('.png',))
+            command_line.check_output('--plot', given.plot, ('.png',))
             from . import righting_arm_plot
             righting_arm_plot.draw(given.plot, scene.boat, Path(given.scene).stem)
         result = figures(scene, push)
