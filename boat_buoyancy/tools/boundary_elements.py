@@ -21,6 +21,7 @@ float side by side are taken one by one: what they do to each other is left out.
 
 from dataclasses import dataclass
 import logging
+import warnings
 
 import numpy as np
 
@@ -39,8 +40,9 @@ from ..physics.rotation import rotation_matrix
 PANELS = 1000
 # Their equations fill 16 bytes times the square of this, and take minutes.
 MOST_PANELS = 6000
-# The periods are found when none moves by more than this part of it; they settle fast.
-SETTLED, ROUNDS = 0.002, 12
+# The periods are found when none moves by more than this part of it: four rounds or so.  Those
+# that go to and fro go half the way from a later round on.
+SETTLED, ROUNDS, LATER = 0.002, 16, 6
 # Corners closer than this part of the hull's length are one, and smaller triangles none.
 NEAR = 1e-7
 
@@ -81,8 +83,11 @@ def at_natural_periods(boat, panels=PANELS, tell=lambda text: None):
             if period not in solved:
                 tell(f'{hulls.panels} panels, round {turn + 1}: {PERIOD_OF[i]} at {period:.3g} s')
                 solved[period] = hulls.radiation(period)
-            added[i], damping[i] = (matrix[i, i] for matrix in solved[period])
+            found, damping[i] = (matrix[i, i] for matrix in solved[period])
+            added[i] += (found - added[i]) * (0.5 if turn >= LATER else 1.0)
         before = periods
+    else:
+        warnings.warn('the natural periods do not settle: added mass holds at periods near by')
     return Radiation(added, damping, periods, hulls.panels)
 
 
@@ -95,13 +100,13 @@ class Hulls:
 
         ValueError as of `at_natural_periods`.
         """
+        surfaces = wetted_hulls(resting_facets(boat), panels)
         require_extra('bem', '--bem', 'capytaine')
         import capytaine
         logging.getLogger('capytaine').setLevel(logging.ERROR)
         self._capytaine, self._solver = capytaine, capytaine.BEMSolver()
         weight = boat.hull.specific_weight
         self._water = {'rho': weight / boat.gravity, 'g': boat.gravity}
-        surfaces = wetted_hulls(resting_facets(boat), panels)
         self.panels = sum(len(surface.triangles) for surface in surfaces)
         state = rest_state(boat)
         axes = np.array(rotation_matrix(state.orientation.tolist())).T

@@ -35,8 +35,8 @@ ROLL_RATIO = 0.05
 # What the boundary element method finds, over what the strips do: least and most of a box, a
 # barge, a Wigley hull, a rigid inflatable and a catamaran of two slender hulls.
 ADDED_MASS_TRUST = (
-    (0.17, 1.7), (0.72, 2.3), (0.63, 0.87), (0.31, 0.86), (0.57, 0.84), (0.61, 2.1))
-DAMPING_TRUST = ((0.39, 1.9), (0.15, 2.2), (0.73, 1.7), (0.02, 1.1), (0.61, 1.8), (0.06, 6.0))
+    (0.15, 1.7), (0.7, 2.3), (0.6, 0.9), (0.3, 0.9), (0.55, 0.85), (0.6, 2.1))
+DAMPING_TRUST = ((0.35, 2.0), (0.15, 2.5), (0.7, 1.7), (0.0, 1.1), (0.6, 1.8), (0.05, 7.0))
 # How many times fewer panels tell how much the number of them matters.
 COARSER = 4
 
@@ -70,8 +70,8 @@ def by_boundary_elements(boat, roll_ratio, tell):
     for name, period in zip(COORDINATES, fine.periods.tolist()):
         own.setdefault(period, []).append(name)
     return fine.added_mass, damping, [
-        'Each holds at its own natural period: '
-        + ', '.join(f'{" and ".join(names)} {period:.3g} s' for period, names in own.items()),
+        'Each at its own natural period: '
+        + '; '.join(f'{", ".join(names)} {period:.3g} s' for period, names in own.items()),
         f'How far to trust them: with {fine.panels} panels in place of {coarse.panels}, mass and '
         'added mass changed by',
         f'at most {100 * mass.max():.1f} %, damping by {100 * drag.max():.1f} % of critical. '
