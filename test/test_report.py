@@ -207,8 +207,10 @@ def test_a_full_probe_at_rest_is_told(scene):
 
 
 def test_drag_that_counts_twice_is_told(scene):
-    result = report(scene('damping.linear: [100.0, 100.0, 500.0, 300.0, 900.0, 800.0]'))
-    assert any('counts twice' in sentence for sentence in result['warnings'])
+    drag = 'damping.linear: [100.0, 100.0, 500.0, 300.0, 900.0, 800.0]'
+    assert not any('counts twice' in sentence for sentence in report(scene(drag))['warnings'])
+    twice = report(scene(drag, 'damping.angular_retention: [0.9]'))['warnings']
+    assert any('counts twice in roll, pitch, yaw' in sentence for sentence in twice)
 
 
 def test_a_shallow_boat_is_stepped_as_its_fastest_oscillation_needs(scene):

@@ -252,6 +252,25 @@ def test_a_deleted_parameter_goes_back_to_what_the_node_was_given(probe):
         assert probe.get_parameters(names) == before, values
 
 
+def test_drag_set_on_a_boat_that_floats_is_all_its_drag_until_it_is_deleted(probe):
+    names = ['damping.probe', 'damping.angular_retention', 'damping.linear_retention']
+
+    def damping():
+        got = probe.get_parameters(names)
+        return [got[name].double_array_value.tolist() for name in names]
+    before = damping()
+    assert before[0][2] == pytest.approx(30.0 * before[0][0]) and before[1:] == [[0.9], [0.9]]
+    assert probe.set_parameters({'damping.linear': [10.0] * 6})[0].successful
+    # What was given stays.
+    assert damping() == [[0.0, 0.0, 0.0], [1.0], [0.9]]
+    for given, taken in ((3000.0, [3000.0]), ([1.0, 2.0, 3.0], [1.0, 2.0, 3.0])):
+        assert probe.set_parameters({'damping.probe': given})[0].successful
+        assert damping()[0] == taken
+    assert all(result.successful for result in probe.set_parameters(
+        {'damping.linear': None, 'damping.probe': None}))
+    assert damping() == before
+
+
 def dropped(probe):
     """Return how many steps the node says in its next diagnostics that it has dropped."""
     status = []
