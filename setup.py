@@ -48,8 +48,8 @@ setup(
         'bem': ['capytaine>=3.0'],
         # Writes recordings; MCAP's own reader reads them back in the tests.
         'bag': ['rosbags'],
-        'test': ['hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest', 'pytest-xdist',
-                 'rosbags', 'scipy', 'trimesh'],
+        'test': ['distributed', 'hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest',
+                 'pytest-xdist', 'rosbags', 'scipy', 'trimesh'],
     },
     zip_safe=False,
     maintainer='boat_buoyancy maintainers',
