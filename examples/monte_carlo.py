@@ -128,7 +128,8 @@ def summary(rows):
 def main(arguments=None):
     """Run the program and return its exit code."""
     parser = command_line.scene_parser(
-        PROGRAM, 'Print the greatest roll and pitch of many boats like that of a scene.')
+        PROGRAM, 'Print the greatest roll and pitch of many boats like that of a scene.',
+        'config/barge.yaml --boats 200')
     option = parser.add_argument
     option('--boats', metavar='N', type=int, default=1000, help='how many (%(default)s)')
     option('--seconds', metavar='S', type=float, default=60.0, help='at sea (%(default)s)')

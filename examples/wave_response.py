@@ -111,7 +111,8 @@ def draw(path, title, periods, headings, found):
 
 def main(arguments=None):
     """Run the program and return its exit code."""
-    parser = command_line.scene_parser(PROGRAM, 'Print how the boat of a scene answers waves.')
+    parser = command_line.scene_parser(PROGRAM, 'Print how the boat of a scene answers waves.',
+                                       'config/barge.yaml --plot barge.png')
     parser.add_argument('--periods', metavar='S', type=float, nargs='+', default=PERIODS,
                         help='of the waves, s')
     parser.add_argument('--headings', metavar='DEG', type=float, nargs='+', default=HEADINGS,

@@ -30,7 +30,8 @@ from rclpy.parameter import Parameter
 from .session import WAVES
 from ..physics.checks import shown
 from ..physics.scene.parameter_file import ROS_OWN
-from ..physics.scene.parameters import check_names, PARAMETERS, WAVE_KINDS
+from ..physics.scene.parameter_names import check_names
+from ..physics.scene.parameters import PARAMETERS, WAVE_KINDS
 from ..physics.scene.scene import scene_from_values
 
 TYPES = {

@@ -45,7 +45,8 @@ def parser():
     """Return the parser of the program's arguments."""
     arguments = command_line.scene_parser(
         PROGRAM, 'Run a boat without ROS and write down its motion: body frame in the world, '
-        'twist in body axes, depth of every probe.', many=True)
+        'twist in body axes, depth of every probe.',
+        'config/waves.yaml --duration 20 --plot run.png', many=True)
     option = arguments.add_argument
     option('--duration', metavar='S', type=float, required=True, help='simulated time, s')
     option('--csv', metavar='FILE', type=Path, help='table, one row per period from time 0')
