@@ -122,19 +122,20 @@ def test_leapfrog_keeps_momentum_to_round_off_and_energy_without_drift():
     boat, begin = barge_under_water()
     swings = []
     for rate in (10, 20):
-        _, states = simulate(boat, begin, 1000.0, rate=rate)
+        _, states = simulate(boat, begin, 500.0, rate=rate)
         energy, momentum, moment = momenta(boat, states)
-        assert abs(momentum / np.linalg.norm(momentum[0]) - (
-            momentum[0] / np.linalg.norm(momentum[0]))).max() < 1e-12
-        # About a point that the boat leaves by a kilometre.
+        # A unit or two in the last place of each number a step.
+        round_off = 4.0 * np.finfo(float).eps * len(momentum) * np.linalg.norm(momentum[0])
+        assert abs(momentum - momentum[0]).max() < round_off
         away = np.linalg.norm(states.position, axis=1).max()
-        assert abs(moment - moment[0]).max() < 1e-12 * away * np.linalg.norm(momentum[0])
+        assert abs(moment - moment[0]).max() < round_off * away
         off = abs(energy / energy[0] - 1.0)
         half = len(off) // 2
-        assert off[half:].max() < 1.1 * off[:half].max()
+        # A drift would double it.
+        assert off[half:].max() < 1.5 * off[:half].max()
         swings.append(off.max())
     assert swings[0] < 9e-5
-    assert np.log2(swings[0] / swings[1]) == pytest.approx(2.0, abs=0.1)
+    assert np.log2(swings[0] / swings[1]) == pytest.approx(2.0, abs=0.2)
 
 
 @pytest.mark.parametrize('current', [(0.0, 0.0), (1.1, -0.7)])
@@ -217,7 +218,7 @@ def thrown(boat, begin, rate, seconds, sea=None, integrator='leapfrog'):
     return states, np.array(wetness)
 
 
-def dropped(count=400, speed=(0.0, 0.0)):
+def dropped(count=150, speed=(0.0, 0.0)):
     """Return starts from 0 to 1 m over the water, and from 1 to 1.7 m under it."""
     height = np.concatenate([np.linspace(0.01, 1.0, count), np.linspace(-1.7, -1.0, count)])
     return State(np.outer(height, (0.0, 0.0, 1.0)), velocity=np.tile((*speed, 0.0), (
@@ -242,12 +243,12 @@ def test_the_energy_grows_by_no_more_than_the_cube_of_the_step_through_entry_and
     boat, begin, rises = one_spring(), dropped(), []
     omega = np.sqrt(STIFFNESS / MASS)
     for rate in (100, 200):
-        states, wetness = thrown(boat, begin, rate, 3.0)
+        states, wetness = thrown(boat, begin, rate, 2.5)
         energy = np.array([drop_energy(boat, state, wet) for state, wet in zip(states, wetness)])
         energy += 0.5 * MASS * GRAVITY * DRAFT
-        assert (wetness.min(axis=0) == 0.0).sum() >= 700 and (wetness.max(axis=0) == 1.0).all()
+        assert (wetness.min(axis=0) == 0.0).sum() >= 260 and (wetness.max(axis=0) == 1.0).all()
         # Out of the water with a speed, and in again.
-        assert ((np.diff(wetness, axis=0) < 0.0).any(axis=0)).sum() >= 400
+        assert ((np.diff(wetness, axis=0) < 0.0).any(axis=0)).sum() >= 150
         rises.append(np.diff(energy, axis=0).max())
         assert rises[-1] <= (omega / rate) ** 3 / 4.0 * energy.max()
     assert rises[0] <= 3e-5 * MASS * GRAVITY * 1.0
@@ -258,11 +259,12 @@ def test_the_energy_grows_by_no_more_than_the_cube_of_the_step_through_entry_and
 @pytest.mark.parametrize('integrator', INTEGRATORS)
 def test_what_comes_in_keeps_its_momentum_in_the_current_and_what_comes_out_its_velocity(
         integrator):
-    current, boat = np.array([0.7, -0.3]), one_spring()
+    # As much on every axis, or Munk's moment would turn it.
+    current, boat = np.array([0.7, -0.3]), replace(one_spring(), added_mass=[1200.0] * 6)
     states, wetness = thrown(boat, dropped(50, speed=(2.0, 1.5)), 100, 2.5, Sea(current=current),
                              integrator)
     along = np.array([state.velocity[:, :2] for state in states])
-    momentum = (MASS + wetness[..., None] * ADDED[:2]) * (along - current)
+    momentum = (MASS + wetness[..., None] * 1200.0) * (along - current)
     rising, falling = np.diff(wetness, axis=0) > 0.0, np.diff(wetness, axis=0) < 0.0
     assert rising.any(axis=0).all() and falling.any(axis=0).sum() >= 50
     assert abs(np.diff(momentum, axis=0)[~falling]).max() < 1e-12 * momentum.max()
@@ -341,6 +343,14 @@ def test_natural_periods_are_the_published_ones_without_and_with_added_mass(valu
         found = modes(load_scene({**values, 'added_mass': [0.0, 0.0, *added, 0.0]}).boat)
         for name, periods in known.items():
             assert found[name].period == pytest.approx(periods[column], abs=0.011), name
+
+
+def test_the_damping_ratio_is_of_critical_with_added_mass():
+    values = {'added_mass': [330.0, 690.0, 4940.0, 834.0, 4950.0, 1010.0],
+              'damping.linear': [800.0, 2160.0, 8540.0, 0.0, 0.0, 0.0]}
+    stiffness = 1025.0 * GRAVITY * 4.0 * 2.0
+    assert modes(load_scene(values).boat)['heave'].damping_ratio == pytest.approx(
+        8540.0 / (2.0 * np.sqrt(stiffness * (2000.0 + 4940.0))), rel=1e-9)
 
 
 SPHERES = {
