@@ -17,6 +17,8 @@ needs no root. Extras, with commas between:
   test   what the tests need
   fast   Numba, which compiles the step; ros and chart take it along
   mesh   trimesh, which reads hulls from mesh files; ros and chart take it along
+  bem    capytaine, for buoyancy_hydrodynamics --bem
+  bag    rosbags, which writes recordings (buoyancy_simulate --mcap); no ROS needed
 
   ./install.sh ros         the node
   ./install.sh ros,test    the node, and what the tests need
@@ -57,8 +59,9 @@ esac
 [ $# -le 1 ] || fail "expected one list of extras with commas between, got '$*' (try --help)"
 for extra in $(printf '%s' "$extras" | tr , ' '); do
   case $extra in
-    ros|chart|test|fast|mesh) ;;
-    *) fail "expected extras out of ros, chart, test, fast and mesh, got '$extra' (try --help)" ;;
+    ros|chart|test|fast|mesh|bem|bag) ;;
+    *) fail "expected extras out of ros, chart, test, fast, mesh, bem and bag, got '$extra'" \
+         '(try --help)' ;;
   esac
 done
 case ",$extras," in
@@ -73,7 +76,13 @@ size=105
 case ",$extras," in *,ros,*) size=$((size + 165)) ;; esac
 case ",$extras," in *,fast,*) size=$((size + 205)) ;; esac
 case ",$extras," in *,mesh,*|*,test,*) size=$((size + 10)) ;; esac
-case ",$extras," in *,test,*) size=$((size + 265)) ;; *,chart,*) size=$((size + 245)) ;; esac
+case ",$extras," in *,bem,*) size=$((size + 115)) ;; esac
+case ",$extras," in *,bag,*|*,test,*) size=$((size + 25)) ;; esac
+case ",$extras," in
+  *,test,*) size=$((size + 290)) ;;
+  *,chart,*) size=$((size + 245)) ;;
+  *,bem,*) size=$((size + 145)) ;;
+esac
 case ",$extras," in
   *,ros,*)
     [ "$(uname -s) $(uname -m)" = 'Linux x86_64' ] ||

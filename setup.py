@@ -22,7 +22,8 @@ setup(
     name=package_name,
     version='0.2.0',
     packages=find_packages(include=[package_name, package_name + '.*']),
-    package_data={package_name: ['py.typed'], package_name + '.ros': ['fast_dds.xml']},
+    package_data={package_name: ['py.typed'], package_name + '.ros': ['fast_dds.xml'],
+                  package_name + '.tools.chart': ['responses/*.json']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
         ('share/' + package_name, ['package.xml']),
@@ -43,7 +44,12 @@ setup(
         'fast': ['numba'],
         # Reads hulls from mesh files.
         'mesh': ['trimesh'],
-        'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy', 'trimesh'],
+        # Computes added mass and damping by a boundary element method.
+        'bem': ['capytaine>=3.0'],
+        # Writes recordings; MCAP's own reader reads them back in the tests.
+        'bag': ['rosbags'],
+        'test': ['hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest', 'pytest-xdist',
+                 'rosbags', 'scipy', 'trimesh'],
     },
     zip_safe=False,
     maintainer='boat_buoyancy maintainers',
@@ -56,6 +62,7 @@ setup(
             'same_sea = boat_buoyancy.ros.same_sea:main',
             'buoyancy_report = boat_buoyancy.tools.report:main',
             'buoyancy_simulate = boat_buoyancy.tools.simulate:main',
+            'buoyancy_hydrodynamics = boat_buoyancy.tools.hydrodynamics:main',
             'buoyancy_chart = boat_buoyancy.tools.chart.main:main',
         ],
     },

@@ -72,6 +72,12 @@ def panelled(panels):
     return replace(scene.boat, hull=replace(scene.boat.hull, panels=surface))
 
 
+def in_waves(boat):
+    """Return a boat that takes water along, in waves that die out with depth."""
+    return replace(boat, added_mass=boat.mass * np.array([0.1, 0.5, 1.0, 0.1, 0.5, 0.3]),
+                   immersion=np.full(len(boat.hull.share), 0.25))
+
+
 def run_of(boat, waves):
     """Return the run of a boat like the default box, for `best_of`."""
     made = Simulation(boat, sea(waves), load_scene({}).start)
@@ -122,6 +128,9 @@ def measure(rounds):
         cases[f'trigonometry, {waves} waves'] = (trigonometry(4 * waves * MANY), 3)
     cases['columns, flat'] = run_of(load_scene({}).boat, 0)
     cases['12 panels, flat'] = run_of(panelled(12), 0)
+    for part, boat in (('columns', load_scene({}).boat), ('192 panels', panelled(192))):
+        cases[f'{part}, all of it'] = run_of(in_waves(boat), 4)
+    cases['columns, 4 waves'] = run_of(load_scene({}).boat, 4)
     for panels in (48, 192, 768):
         cases[f'{panels} panels, 4 waves'] = run_of(panelled(panels), 4)
     cases[f'{MANY} boats of 48 panels'] = (fleet(MANY, 4, boat=panelled(48)).step, 3)
@@ -159,6 +168,10 @@ def main():
          best[f'{MANY} boats, 64 waves'] / best['trigonometry, 64 waves'], 0.15),
         ('10 000 boats, one thread over two', best['1 threads'] / best['2 threads'], -1.8),
         ('implicit over leapfrog, in `sim.run`', best['implicit'] / best['leapfrog'], 1.7),
+        ('added mass and the wave force of Froude and Krylov over neither, 4 columns, 4 waves, '
+         'in `sim.run`', best['columns, all of it'] / best['columns, 4 waves'], 1.3),
+        ('the same of 192 panels',
+         best['192 panels, all of it'] / best['192 panels, 4 waves'], 2.0),
         ('a box of 12 panels in flat water over its 4 columns, in `sim.run`',
          best['12 panels, flat'] / best['columns, flat'], 3.0),
         ('192 panels, 4 waves, a step in `sim.run`, calls',

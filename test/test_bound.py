@@ -129,7 +129,8 @@ def test_the_bound_is_the_published_formula():
     # a wave across the current.
     drag = {name: [np.exp(-0.5)] for name in ('angular_retention', 'air_linear_retention',
                                               'air_angular_retention')}
-    boat = reference_boat(damping=Damping(linear_retention=[np.exp(-0.7)], probe=1500.0, **drag,
+    boat = reference_boat(damping=Damping(linear_retention=[np.exp(-0.7)], **drag,
+                                          probe=[200.0, 1500.0, 900.0],
                                           linear=[40.0, 60.0, 20.0, 900.0, 0.0, 0.0]),
                           center_of_mass=(0.0, 0.0, 0.5))
     bound = SpeedBound.of(boat, Sea([[1.0, 2.0 * np.pi, np.arctan2(0.6, -0.8), 0.0]],

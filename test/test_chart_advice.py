@@ -35,7 +35,7 @@ SCENES = {
                    'boat.mass': 900.0, 'probes.floatiness': 2.5, 'probes.stiffness': 1.5,
                    'sea.significant_height': 0.4, 'sea.peak_period': 3.0, 'sea.components': 8},
                   0.01),
-    'regular': ({'sea.waves': [0.12, 2.2, 0.4, 0.0]}, 0.012),
+    'regular': ({'sea.waves': [0.12, 2.2, 0.4, 0.0], 'damping.probe': 7610.4}, 0.012),
     'drop': ({'start.position': [0.0, 0.0, 1.5], 'start.orientation': [0.1, 0.05, 0.0]}, 0.02)}
 # Two apart, so that neighbours differ by more than one stretch of sea from another.
 RATES = tuple(2.0 ** power for power in range(11))

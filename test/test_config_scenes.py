@@ -14,11 +14,13 @@
 
 """The scenes that ship: each floats, and each step of the idea adds what it says it adds."""
 
+import json
 from pathlib import Path
 import re
 
 from boat_buoyancy.physics import load_scene, State
 from boat_buoyancy.physics.boat.state import body_frame, center_of_mass_state
+from boat_buoyancy.physics.hydrostatics.natural_modes import modes
 from boat_buoyancy.physics.hydrostatics.rest import draft, rest_state
 from boat_buoyancy.physics.rotation import from_roll_pitch_yaw, to_roll_pitch_yaw
 from boat_buoyancy.physics.scene import parameter_file
@@ -348,16 +350,46 @@ def test_the_barge_is_20_by_6_by_3_m_with_its_weight_1_8_m_up():
     assert len(boat.hull.positions) >= 8
 
 
-def test_the_barge_rolls_at_the_period_of_its_metacentric_height():
-    still = {name: [1.0] for name in RETENTION} | {'damping.probe': 0.0}
+def test_the_barge_rolls_at_the_period_of_its_metacentric_height_and_the_water_it_takes_along():
+    still = {name: [1.0] for name in RETENTION} | {
+        'damping.probe': 0.0, 'damping.linear': [0.0] * 6}
     scene = load_scene({**parameter_file.read(CONFIG / 'barge.yaml'), **still})
     _, angles = run(placed(scene, roll=0.02), 40.0, every=1)
     roll = angles[:, 0]
     down = np.flatnonzero((roll[:-1] > 0.0) & (roll[1:] <= 0.0))
     crossing = (down + roll[down] / (roll[down] - roll[down + 1])) / 100.0
-    inertia = scene.boat.mass / 12.0 * (6.0 ** 2 + 3.0 ** 2)
+    inertia = scene.boat.mass / 12.0 * (6.0 ** 2 + 3.0 ** 2) + scene.values['added_mass'][3]
     expected = 2 * np.pi * np.sqrt(inertia / (scene.boat.mass * 9.81 * 0.95))
     assert np.diff(crossing).mean() == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize('name, table', [
+    ('barge', 'test/data/bem_barge.json'),
+    ('wigley', 'boat_buoyancy/tools/chart/responses/wigley.json')])
+def test_added_mass_and_damping_are_those_of_the_boundary_element_method(name, table):
+    known = json.loads((CONFIG.parent / table).read_text())
+    damping = np.array(known['radiation_damping'])
+    damping[3] += known['viscous_roll']
+    values = scene_of(name).values
+    # Five digits.
+    assert values['added_mass'] == pytest.approx(known['added_mass'], rel=5e-5)
+    assert values['damping.linear'] == pytest.approx(damping.tolist(), rel=5e-5)
+    assert values['wave_force'] == 'froude_krylov'
+
+
+def test_otter_has_its_published_added_mass_moved_to_the_centre_of_mass():
+    boat, origin = scene_of('otter').boat, np.diag([5.5, 82.5, 55.0, 3.336, 17.21, 25.67])
+    # Velocity of the origin by that of the centre of mass: v - w x r, for each of the six.
+    H = np.eye(6)
+    H[:3, 3:] = -np.cross(np.eye(3), boat.center_of_mass).T
+    assert boat.added_mass == pytest.approx(np.diag(H.T @ origin @ H), rel=5e-4)
+
+
+def test_otter_heaves_and_rolls_in_the_time_that_was_published():
+    # sqrt(G / M) there: 7.47 and 6.2 rad/s.
+    found = modes(scene_of('otter').boat)
+    assert found['heave'].period == pytest.approx(0.84, abs=0.005)
+    assert found['roll'].period == pytest.approx(1.01, abs=0.005)
 
 
 def test_wam_v_reaches_its_published_speed_under_500_n():

@@ -35,10 +35,10 @@ DERIVED = {'boat.inertia', 'hull.bottom', 'probes.positions', 'probes.weights', 
 # With these there is nothing to raise.
 NO_NUMBER = {'integrator', 'world_frame', 'body_frame', 'publish_clock', 'hull.shape',
              'hull.model', 'hull.mesh', 'probes.law', 'thrusters.names', 'frame_prefix',
-             'publish_tf', 'map_frame'}
+             'publish_tf', 'map_frame', 'wave_force'}
 # What the node may change while it runs.
 LIVE = ('boat.mass', 'boat.inertia', 'probes.floatiness', 'probes.stiffness', 'probes.weights',
-        'damping.', 'sea.', 'wind.', 'thrust.timeout')
+        'damping.', 'added_mass', 'sea.', 'wind.', 'thrust.timeout')
 
 
 NUMBERS = ('float', 'int', 'float_array', 'int_array')

@@ -23,7 +23,7 @@ import shlex
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from boat_buoyancy.physics.step_size.plan import MAX_SUBSTEPS
-from boat_buoyancy.tools import report, simulate
+from boat_buoyancy.tools import hydrodynamics, report, simulate
 from boat_buoyancy.tools.chart.main import main as chart
 from boat_buoyancy.tools.chart.stability_map import predicted_loop_growth
 import pytest
@@ -31,7 +31,7 @@ from readme import blocks, commands, ROOT, section, table, TEXT
 
 PLAIN = 'the step is plain Python, some fifty times slower'
 TOOLS = {'buoyancy_report': report.main, 'buoyancy_simulate': simulate.main,
-         'buoyancy_chart': chart}
+         'buoyancy_chart': chart, 'buoyancy_hydrodynamics': hydrodynamics.main}
 TOPIC_TYPES = {name: kind for name, kind, *_ in table('Topics')}
 SERVICE_TYPES = {name: kind for name, kind, *_ in table('Services')}
 
@@ -136,6 +136,17 @@ def test_the_report_shown_is_the_report_one_gets(monkeypatch):
     # As it is where Numba is installed.
     got = said.getvalue().replace(PLAIN, 'the step is compiled')
     assert got.strip() == expected.strip()
+
+
+def test_the_added_mass_shown_is_what_one_gets(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    example, = (block for block in blocks('text')
+                if block.startswith('$ buoyancy_hydrodynamics'))
+    first, _, expected = example.partition('\n')
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        assert hydrodynamics.main(first.split()[2:]) == 0
+    assert said.getvalue().strip() == expected.strip()
 
 
 def test_the_library_example_runs_and_says_what_is_shown(tmp_path, monkeypatch):

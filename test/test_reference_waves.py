@@ -12,15 +12,20 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
+from dataclasses import replace
+import re
+
+from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.boat.boat import Damping
 from boat_buoyancy.physics.boat.state import State
 from boat_buoyancy.physics.sea.dispersion import wavenumber
 from boat_buoyancy.physics.sea.waves import Sea
 from boats import (
-    asymmetric_boat, DRAFT, HEAVE, last_state, MASS, random_states, reference_boat, simulate,
-    start, undamped, wind_sea)
+    all_damping, asymmetric_boat, DRAFT, HEAVE, last_state, MASS, random_states, reference_boat,
+    simulate, start, undamped, wind_sea)
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from textbook import dispersion, water
 
@@ -52,6 +57,108 @@ def test_dispersion_holds_from_ripples_to_tides(depth):
     # Both limits of linear theory: deep water, and g h as the fastest speed of all.
     assert (k >= frequency**2 / GRAVITY * (1 - 1e-12)).all()
     assert (frequency / k <= np.sqrt(GRAVITY * depth) * (1 + 1e-12)).all()
+
+
+# On a current.
+
+def test_a_wave_of_3_s_going_with_1_m_per_s_is_longer_and_its_water_slower():
+    # (w - k)^2 = g k, by the quadratic formula.
+    w = 2 * np.pi / 3.0
+    k = min(np.roots([1.0, -2.0 * w - GRAVITY, w**2]))
+    assert (2 * np.pi / k, GRAVITY * 9.0 / (2 * np.pi)) == pytest.approx((19.6, 14.1), abs=0.06)
+    sea = Sea([[0.1, 3.0, 0.0, 0.0]], current=(1.0, 0.0))
+    assert sea.wave_vector[0, 0] == pytest.approx(k, rel=1e-13)
+    x, time = np.linspace(0.0, 30.0, 7), 1.7
+    theta = k * x - w * time
+    np.testing.assert_allclose(sea.elevation(x, 0.0, time), 0.1 * np.cos(theta), atol=1e-14)
+    np.testing.assert_allclose(sea.velocity(x, 0.0, time), np.stack([
+        1.0 + 0.1 * (w - k) * np.cos(theta), 0.0 * x, 0.1 * (w - k) * np.sin(theta)], axis=1),
+        atol=1e-13)
+
+
+@pytest.mark.parametrize('depth', [0.0, 0.3, 3.0, 50.0])
+def test_the_length_on_a_current_is_that_of_the_branch_of_still_water(depth):
+    random = np.random.default_rng(8)
+    frequency, current = 2 * np.pi / 10 ** random.uniform(-1, 3, 100), random.normal(0, 1.5, 100)
+    found = wavenumber(frequency, depth, GRAVITY, current)
+    assert 20 < np.isfinite(found).sum() < 100
+    for w, u, k in zip(frequency, current, found):
+        # In steps of a thousandth from where still water comes from, k = 0, or past the greatest
+        # root there could be: the frequency on the current falls beyond g / (4 u^2).
+        tried = np.geomspace(1e-6 * w**2 / GRAVITY, max(GRAVITY / u**2, 2.0 * w / abs(u)), 40000)
+        shallow = np.tanh(tried * depth) if depth else 1.0
+        excess = np.sqrt(GRAVITY * tried * shallow) + u * tried - w
+        if np.isnan(k):
+            assert excess.max() < 1e-6 * w
+        else:
+            assert k == pytest.approx(dispersion(w, depth, GRAVITY, u), rel=1e-7)
+
+
+@pytest.mark.parametrize('depth', [0.0, 2.0])
+def test_the_current_stops_a_wave_where_its_energy_stands_still(depth):
+    against = 1.0
+
+    def group_speed(k):
+        return (np.sqrt(GRAVITY * (k + h) * tanh(k + h)) - np.sqrt(GRAVITY * k * tanh(k))) / h
+
+    def tanh(k):
+        return np.tanh(k * depth) if depth else 1.0
+    h = 1e-7
+    k = brentq(lambda k: group_speed(k) - against, 0.01, 100.0)
+    period = 2 * np.pi / (np.sqrt(GRAVITY * k * tanh(k)) - against * k)
+    if not depth:
+        # w U = g / 4.
+        assert period == pytest.approx(8 * np.pi * against / GRAVITY, rel=1e-5)
+    for direction, current in ((np.pi, (against, 0.0)), (0.5, (-np.cos(0.5), -np.sin(0.5)))):
+        Sea([[0.1, 1.0001 * period, direction, 0.0]], current, depth)
+        with pytest.raises(ValueError, match='row 2') as raised:
+            Sea([[0.1, 9.0, 0.0, 0.0], [0.1, 0.9999 * period, direction, 0.0]], current, depth)
+        said = re.search(r'cannot run against 1 m/s of sea.current: \[.*\]; expected a period of '
+                         r'at least (.*) s there: give it a longer', str(raised.value))
+        assert period <= float(said[1]) <= period + 0.011
+
+
+def test_a_current_faster_than_the_longest_waves_of_a_depth_stops_them_all():
+    speed = np.sqrt(GRAVITY * 2.0)
+    Sea([[0.1, 1e4, 0.0, 0.0]], (-0.99 * speed, 0.0), 2.0)
+    with pytest.raises(ValueError, match='expected less than 4.43 m/s, at which the longest'):
+        Sea([[0.1, 1e6, 0.0, 0.0]], (-1.01 * speed, 0.0), 2.0)
+
+
+@pytest.mark.parametrize('depth', [0.0, 1.5])
+@pytest.mark.parametrize('integrator', ['leapfrog', 'rk4'])
+def test_a_boat_adrift_moves_as_in_still_water_that_the_current_carries_along(depth, integrator):
+    """Who moves with the water cannot tell that it moves (Galileo)."""
+    current, sea = np.array([0.6, -0.3]), wind_sea()
+    on_current = Sea(sea.waves, current, depth)
+    # The same lengths; the periods that who drifts sees.
+    still = sea.waves.copy()
+    still[:, 1] = 2 * np.pi / (2 * np.pi / sea.waves[:, 1] - on_current.wave_vector @ current)
+    # The air does not drift.
+    boat = asymmetric_boat(damping=replace(all_damping(), air_linear_retention=[1.0]))
+    state = random_states((), 9)
+    adrift = replace(state, velocity=state.velocity + [*current, 0.0])
+    run = {'rate': 50, 'integrator': integrator}
+    moved = last_state(boat, adrift, 8.0, sea=on_current, **run)
+    stayed = last_state(boat, state, 8.0, sea=Sea(still, depth=depth), **run)
+    assert moved.position - [*(8.0 * current), 0.0] == pytest.approx(stayed.position, abs=1e-10)
+    assert moved.velocity - [*current, 0.0] == pytest.approx(stayed.velocity, abs=1e-10)
+    assert moved.orientation == pytest.approx(stayed.orientation, abs=1e-10)
+    assert moved.angular_velocity == pytest.approx(stayed.angular_velocity, abs=1e-10)
+
+
+def test_a_boat_that_heads_along_a_spread_sea_rolls_and_along_a_long_crested_one_never():
+    def swing(spreading):
+        run = load_scene({'sea.sea_state': 2, 'sea.spreading': spreading}).simulation().run(30.0)
+        return run.roll.std(), run.pitch.std()
+    roll, pitch = swing(0.0)
+    assert roll < 1e-12 and pitch > 0.01
+    # Slopes across over slopes along, by the mean of cos(2 theta): s (s - 1) / (s + 1) (s + 2).
+    roll, pitch = swing(10.0)
+    double = 90.0 / 132.0
+    slopes = np.sqrt((1.0 - double) / (1.0 + double))
+    # Half a minute of a boat that is stiffer in roll than in pitch: within a factor of three.
+    assert slopes / 3.0 < roll / pitch < 3.0 * slopes
 
 
 def test_elevation_of_a_linear_wave():

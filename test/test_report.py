@@ -44,8 +44,8 @@ KEYS = [
     'heave_period_s', 'roll_period_s', 'pitch_period_s', 'heave_damping_ratio',
     'roll_damping_ratio', 'pitch_damping_ratio', 'max_stable_step_s', 'substeps', 'sea',
     'warnings', 'gz_heel_deg', 'gz_m', 'gz_exact_m', 'gz_exact_to_deg', 'model_error', 'step']
-SEA_KEYS = ['significant_height_m', 'shortest_wave_m', 'shortest_wave_s', 'longest_wave_m',
-            'longest_wave_s', 'meets']
+SEA_KEYS = ['significant_height_m', 'steepness', 'shortest_wave_m', 'shortest_wave_s',
+            'longest_wave_m', 'longest_wave_s', 'meets']
 ERROR_KEYS = ['draft_m', 'gm_transverse_m', 'gm_longitudinal_m', 'gz_greatest_m',
               'gz_greatest_at_deg', 'gz_rms_to_30_deg_m']
 SMALL_BARGE = ['hull.size: [4.0, 2.0, 1.0]', 'boat.mass: 2000.0', 'water_density: 1000.0']
@@ -207,8 +207,10 @@ def test_a_full_probe_at_rest_is_told(scene):
 
 
 def test_drag_that_counts_twice_is_told(scene):
-    result = report(scene('damping.linear: [100.0, 100.0, 500.0, 300.0, 900.0, 800.0]'))
-    assert any('counts twice' in sentence for sentence in result['warnings'])
+    drag = 'damping.linear: [100.0, 100.0, 500.0, 300.0, 900.0, 800.0]'
+    assert not any('counts twice' in sentence for sentence in report(scene(drag))['warnings'])
+    twice = report(scene(drag, 'damping.angular_retention: [0.9]'))['warnings']
+    assert any('counts twice in roll, pitch, yaw' in sentence for sentence in twice)
 
 
 def test_a_shallow_boat_is_stepped_as_its_fastest_oscillation_needs(scene):
@@ -393,7 +395,8 @@ def test_the_sea_is_given_by_its_height_and_its_ends(scene):
     assert sea['longest_wave_m'] == pytest.approx(9.81 * 36.0 / (2 * np.pi))
     assert sea['meets'] == []
     shown = text(path)
-    assert 'significant height 1.41 m' in shown and 'No natural period meets them.' in shown
+    assert 'significant height 1.41 m, steepness 1/' in shown
+    assert 'No natural period meets them.' in shown
 
 
 @pytest.mark.parametrize('small, period, meets', [
@@ -412,6 +415,22 @@ def test_a_wave_that_meets_a_period_is_told_of_once_when_it_is_the_only_one(scen
     shown = text(scene(*SMALL_BARGE, 'sea.waves: [0.01, 1.05, 0.0, 0.0]'))
     assert 'the waves that matter are 1.72 m (1.05 s) long' in shown
     assert 'They meet the natural period of heave (1 s)' in shown
+
+
+def test_a_boat_adrift_meets_a_wave_at_the_period_of_the_water_that_it_drifts_with(scene):
+    # (w - k)^2 = g k: 1.19 s at a fixed point, on 1 m/s with it, are 1.62 s in the water.
+    for current, meets in (('[0.0, 0.0]', ['heave']), ('[1.0, 0.0]', [])):
+        assert report(scene(*SMALL_BARGE, 'boat.inertia: [50000.0, 50000.0, 90000.0]',
+                            'sea.waves: [0.01, 1.19, 0.0, 0.0]',
+                            f'sea.current: {current}'))['sea']['meets'] == meets
+
+
+def test_the_steepness_of_a_sea_is_said_as_a_part_of_one(scene):
+    # A fully grown sea of any state: 2 pi 0.21 (0.879 / (2 pi 0.778))^2, 0.778 = Tz / Tp.
+    path = scene('sea.sea_state: 4')
+    assert report(path)['sea']['steepness'] == pytest.approx(1 / 23.4, rel=3e-3)
+    assert 'significant height 1.88 m, steepness 1/23; the waves' in text(path)
+    assert 'steepness 1/62; the waves' in text(scene('sea.waves: [0.2, 4.0, 0.0, 0.0]'))
 
 
 # The picture.

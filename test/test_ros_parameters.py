@@ -208,6 +208,37 @@ def test_a_sea_state_replaces_rows_and_rows_a_sea_state(probe):
     assert probe.get_parameters(['sea.sea_state'])['sea.sea_state'].integer_value == 0
 
 
+def test_what_cannot_run_against_the_current_is_refused_and_the_boat_goes_on(probe):
+    rows = [0.02, 4.0, 0.0, 0.0]
+    ask = probe.publisher(Float64MultiArray, 'wave_parameters')
+    for message in (None, [0.02, 5.0, 0.1, 0.0]):
+        if message:
+            # Waves that came by message count as those of parameters do.
+            assert probe.set_parameters({'sea.waves': []})[0].successful
+            ask.publish(Float64MultiArray(data=message))
+            rows = message
+        probe.until(lambda: probe.waves[-1].data.tolist() == rows)
+        result = probe.set_atomically({'sea.current': [-3.0, 0.0], 'boat.mass': 2100.0})
+        assert not result.successful
+        assert result.reason.startswith(f'sea.waves: row 1 is {rows}, which cannot run against ')
+        assert 'expected a period of at least ' in result.reason
+        values = probe.get_parameters(['sea.current', 'boat.mass'])
+        assert values['sea.current'].double_array_value.tolist() == [0.0, 0.0]
+        assert values['boat.mass'].double_value == 2000.0
+        count = len(probe.poses)
+        probe.until(lambda: len(probe.poses) > count + 20)
+        assert probe.waves[-1].data.tolist() == rows
+    probe.set_atomically({'sea.waves': [0.02, 4.0, 0.0, 0.0]})
+
+
+def test_a_sea_is_spread_about_its_direction_while_it_runs(probe):
+    assert probe.set_atomically({'sea.sea_state': 2, 'sea.spreading': 10.0}).successful
+    probe.until(lambda: len(set(probe.waves[-1].data[2::4])) == 16)
+    assert probe.set_parameters({'sea.spreading': 0.0})[0].successful
+    probe.until(lambda: set(probe.waves[-1].data[2::4]) == {0.0})
+    probe.set_atomically({'sea.waves': [0.02, 4.0, 0.0, 0.0]})
+
+
 def test_a_deleted_parameter_goes_back_to_what_the_node_was_given(probe):
     names = ['damping.linear_retention', 'sea.waves', 'sea.sea_state', 'boat.mass', 'boat.inertia']
     before = probe.get_parameters(names)
@@ -219,6 +250,25 @@ def test_a_deleted_parameter_goes_back_to_what_the_node_was_given(probe):
         assert probe.get_parameters(names) != before
         assert probe.set_parameters(dict.fromkeys(values))[0].successful
         assert probe.get_parameters(names) == before, values
+
+
+def test_drag_set_on_a_boat_that_floats_is_all_its_drag_until_it_is_deleted(probe):
+    names = ['damping.probe', 'damping.angular_retention', 'damping.linear_retention']
+
+    def damping():
+        got = probe.get_parameters(names)
+        return [got[name].double_array_value.tolist() for name in names]
+    before = damping()
+    assert before[0][2] == pytest.approx(30.0 * before[0][0]) and before[1:] == [[0.9], [0.9]]
+    assert probe.set_parameters({'damping.linear': [10.0] * 6})[0].successful
+    # What was given stays.
+    assert damping() == [[0.0, 0.0, 0.0], [1.0], [0.9]]
+    for given, taken in ((3000.0, [3000.0]), ([1.0, 2.0, 3.0], [1.0, 2.0, 3.0])):
+        assert probe.set_parameters({'damping.probe': given})[0].successful
+        assert damping()[0] == taken
+    assert all(result.successful for result in probe.set_parameters(
+        {'damping.linear': None, 'damping.probe': None}))
+    assert damping() == before
 
 
 def dropped(probe):

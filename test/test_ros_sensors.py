@@ -21,6 +21,7 @@ from boat_buoyancy.physics import load_scene
 from boat_buoyancy.ros.messages import Outputs
 from boat_buoyancy.ros.sensors import sensors_of
 from boat_buoyancy.ros.session import Session
+from boat_buoyancy.ros.topics import NodeTopics
 import numpy as np
 import pytest
 from ros_probe import BoatProcess, nanoseconds, Probe
@@ -60,7 +61,8 @@ def record(values, periods, *, thrust=None, start=0, **node):
     """Return the rows of imu (n, 11) and fix (n, 4) over some periods, and the session."""
     recorder = Recorder(**node)
     session = Session(load_scene({'thrust.timeout': 0.0, **values}), start)
-    outputs = Outputs(recorder, session.scene, sensors_of(recorder, session.scene))
+    topics = NodeTopics(recorder)
+    outputs = Outputs(topics, session.scene, sensors_of(topics, session.scene))
     outputs.publish(session)
     if thrust is not None:
         session.thrust.hold(thrust, False, 0.0)
@@ -205,7 +207,8 @@ def test_boats_of_one_seed_have_noise_of_their_own_which_comes_again():
 
 def test_a_boat_that_is_shown_again_at_the_same_time_measures_nothing_new():
     recorder, session = Recorder(), Session(load_scene({'fix.rate': 100.0}))
-    outputs = Outputs(recorder, session.scene, sensors_of(recorder, session.scene))
+    topics = NodeTopics(recorder)
+    outputs = Outputs(topics, session.scene, sensors_of(topics, session.scene))
     outputs.publish(session)
     session.place(5.0, 0.0, 0.0)
     outputs.publish(session)
@@ -249,7 +252,7 @@ def test_without_a_listener_nothing_is_computed(monkeypatch):
 
 
 def test_a_rate_of_0_is_no_sensor_at_all():
-    assert sensors_of(Recorder(), load_scene({'imu.rate': 0.0, 'fix.rate': 0.0})) == []
+    assert sensors_of(NodeTopics(Recorder()), load_scene({'imu.rate': 0.0, 'fix.rate': 0.0})) == []
 
 
 def test_the_fix_is_that_of_the_antenna_in_the_world():

@@ -172,6 +172,42 @@ def test_waves_that_came_by_message_stay_when_the_boat_or_the_current_changes():
     assert session.sea.current.tolist() == [1.0, 0.0]
 
 
+def test_waves_that_cannot_run_against_the_current_change_nothing():
+    session = Session(load_scene({'sea.current': [-1.0, 0.0], 'sea.transition': 0.0}))
+    session.set_waves(Sea(ROWS).waves)
+    with pytest.raises(ValueError, match='row 1 .* cannot run against 1 m/s of sea.current'):
+        session.set_waves(Sea([[0.1, 2.0, 0.0, 0.0]]).waves)
+    assert session.sea.waves.ravel().tolist() == ROWS and session.step()
+    # A current is judged by the waves in force, whoever asked for them.
+    scene = load_scene({'sea.current': [-3.0, 0.0], 'sea.transition': 0.0})
+    with pytest.raises(ValueError, match='row 1 .* cannot run against .* of sea.current: .-3.0'):
+        session.sea_with(scene, {'sea.current'})
+    calm = load_scene({'sea.current': [-3.0, 0.0], 'sea.transition': 0.0, 'sea.waves': []})
+    assert session.sea_with(calm, {'sea.current', 'sea.waves'}).is_flat
+    assert session.sea.waves.ravel().tolist() == ROWS
+    assert session.sea.current.tolist() == [-1.0, 0.0] and session.step()
+
+
+def test_what_a_current_stops_of_an_irregular_sea_comes_back_as_it_turns():
+    sea = {'sea.sea_state': 3, 'sea.transition': 0.0}
+    session = Session(load_scene(sea))
+    whole = session.sea.waves
+    for current, stops in (([-1.2, 0.0], True), ([1.2, 0.0], False)):
+        scene = load_scene({**sea, 'sea.current': current})
+        session.change(scene, None, {'sea.current'})
+        assert np.array_equal(session.sea.waves, scene.sea.waves)
+        assert (len(session.sea.waves) < len(whole)) == stops
+    assert np.array_equal(session.sea.waves, whole)
+    # Waves that came by message are not taken back by what a current does to those of the scene.
+    session.set_waves(Sea(ROWS).waves)
+    session.change(load_scene({**sea, 'sea.current': [-1.2, 0.0]}), None, {'sea.current'})
+    assert session.sea.waves.ravel().tolist() == ROWS
+    # Those of another spreading are.
+    spread = load_scene({**sea, 'sea.spreading': 10.0})
+    session.change(spread, None, {'sea.spreading', 'sea.current'})
+    assert np.array_equal(session.sea.waves, spread.sea.waves)
+
+
 def test_a_wind_blows_from_the_next_step_on_and_waves_go_on_fading():
     session = Session(load_scene({'sea.waves': ROWS, 'sea.transition': 1.0}))
     session.rebase(START)

@@ -21,6 +21,7 @@ The wheels of ROS have no tf2_msgs: a stand-in with its one field takes the plac
 from importlib.util import find_spec
 import math
 import os
+import sys
 from types import SimpleNamespace
 
 from boat_buoyancy.physics import load_scene
@@ -29,6 +30,7 @@ from boat_buoyancy.ros.complaints import Refused
 from boat_buoyancy.ros.initial_pose import read_place
 from boat_buoyancy.ros.messages import Outputs
 from boat_buoyancy.ros.session import Session
+from boat_buoyancy.ros.topics import NodeTopics
 from geometry_msgs.msg import PoseWithCovarianceStamped
 import pytest
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
@@ -59,19 +61,20 @@ class Recorder:
         return SimpleNamespace(get_subscription_count=lambda: 1,
                                publish=self.sent.setdefault(topic, []).append)
 
-    def get_clock(self):
-        """Return a clock that stands at 7 s."""
-        return SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=7_000_000_000))
+    def get_fully_qualified_name(self):
+        """Return the name of the node."""
+        return '/boat_buoyancy'
 
 
 @pytest.fixture
 def publish(monkeypatch):
     """Return a function that publishes the first instant of a scene and returns the recorder."""
-    monkeypatch.setattr(transforms, 'TFMessage', StandIn)
+    monkeypatch.setitem(sys.modules, 'tf2_msgs.msg', SimpleNamespace(TFMessage=StandIn))
 
     def published(values):
         scene, recorder = load_scene(values), Recorder()
-        outputs = Outputs(recorder, scene, more=transforms.topics_of(recorder, scene))
+        topics = NodeTopics(recorder)
+        outputs = Outputs(topics, scene, more=transforms.topics_of(topics, scene, 7 * 10 ** 9))
         outputs.publish(Session(scene, 5_250_000_000))
         return recorder
     return published

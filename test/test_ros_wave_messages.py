@@ -123,6 +123,19 @@ def test_bad_waves_are_refused_whole_and_the_sea_stays(boat, probe, ask):
     assert len(probe.waves) == count
 
 
+def test_a_wave_that_cannot_run_against_the_current_is_refused_and_the_sea_stays(
+        boat, probe, ask):
+    good = [0.05, 6.0, 3.0, 0.0]
+    ask(good)
+    probe.until(lambda: probe.waves[-1].data.tolist() == good)
+    assert probe.set_parameters({'sea.current': [1.0, 0.0]})[0].successful
+    ask([0.05, 6.0, 0.0, 0.0, 0.05, 2.0, 3.0, 0.0])
+    boat.wait_for_log('wave_parameters: row 2 is [0.05, 2.0, 3.0, 0.0], which cannot run against '
+                      '0.99 m/s of sea.current')
+    assert probe.waves[-1].data.tolist() == good
+    assert probe.set_parameters({'sea.current': [0.0, 0.0]})[0].successful
+
+
 def test_copies_are_told_apart_from_messages_that_are_sent_again():
     copies = Duplicates()
     # a, b, a by both subscriptions, interleaved as they may come.

@@ -25,9 +25,12 @@ from boat_buoyancy.physics.hydrostatics import rest
 from boat_buoyancy.physics.scene import scene as scenes
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from boat_buoyancy.physics.scene.scene import scene_from_values
+from boat_buoyancy.physics.sea import spectra
+from boat_buoyancy.physics.sea.steepness import steepness
 from hypothesis import example, given, HealthCheck, settings, strategies as st
 import numpy as np
 import pytest
+from textbook import dispersion
 
 SQUARE = [[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]]
 TILTED = (0.2, -0.1, 0.7)
@@ -317,7 +320,8 @@ def test_what_nothing_looks_at_is_said_and_not_ignored():
                                     -1.0, -1.0, 0.0]}
     for values, name in (({**corners, 'water_density': 1000.0}, 'water_density'),
                          ({'sea.waves': [0.1, 4.0, 0.0, 0.0], 'sea.direction': 1.0},
-                          'sea.direction'), ({'sea.seed': 7}, 'sea.seed')):
+                          'sea.direction'), ({'sea.seed': 7}, 'sea.seed'),
+                         ({'sea.spreading': 10.0}, 'sea.spreading')):
         sentence, = load_scene(values).warnings
         assert sentence.startswith(f'{name} has no effect: ')
     assert load_scene({'sea.sea_state': 5, 'sea.seed': 7, 'sea.direction': 1.0,
@@ -435,6 +439,84 @@ def test_waves_steeper_than_water_can_be_are_warned_of():
     assert load_scene({'sea.waves': [0.445, 2.0, 0.0, 0.0]}).warnings == ()
     (warning,) = load_scene({'sea.waves': [0.447, 2.0, 0.0, 0.0]}).warnings
     assert 'steeper than water can be: row 1' in warning
+
+
+def test_a_sea_steeper_than_seas_are_is_warned_of():
+    # Tz = 0.778 Tp = 3.89 s: a significant height of a tenth of 23.6 m.
+    for height, said in ((2.33, 0), (2.39, 1)):
+        warnings = load_scene({'sea.significant_height': height, 'sea.peak_period': 5.0,
+                               'hull.probes': [4, 4]}).warnings
+        assert sum('steeper than any sea is' in sentence for sentence in warnings) == said
+
+
+@pytest.mark.parametrize('components', [1, 5, 100])
+def test_a_fully_grown_sea_is_as_steep_in_any_state(components):
+    # Hs = 0.21 U^2/g, Tp = 2 pi U / (0.879 g), Tz = 0.778 Tp: 2 pi Hs / (g Tz^2).
+    expected = 0.21 * 0.879 ** 2 / (2 * math.pi * 0.778 ** 2)
+    for state in (1, 4, 9):
+        sea = load_scene({'sea.sea_state': state, 'sea.components': components}).sea
+        if components > 1:
+            assert steepness(sea) == pytest.approx(expected, rel=2e-3)
+        else:
+            # A single wave has a height of 2 a, and a is Hs / sqrt(8).
+            assert steepness(sea) == pytest.approx(expected / math.sqrt(2.0), rel=2e-3)
+
+
+@pytest.mark.parametrize('scale', [1.0, 1e-200])
+def test_the_steepness_is_height_over_length_in_any_depth_and_current(scale):
+    for depth, current in ((0.0, 0.0), (0.0, 1.0), (3.0, 0.0), (3.0, -0.5)):
+        length = 2 * math.pi / dispersion(2 * math.pi / 3.0, depth, 9.81, current)
+        sea = load_scene({'sea.waves': [0.2 * scale, 3.0, 0.0, 0.0, 0.0, 9.0, 0.0, 0.0],
+                          'sea.depth': depth, 'sea.current': [current, 0.0]}).sea
+        assert steepness(sea) == pytest.approx(scale * 0.4 / length, rel=1e-9)
+        both = load_scene({'sea.waves': [0.2 * scale, 3.0, 0.0, 0.0, 0.2 * scale, 3.0, 0.0, 0.5],
+                           'sea.depth': depth, 'sea.current': [current, 0.0]}).sea
+        assert steepness(both) == pytest.approx(scale * 0.8 / length, rel=1e-9)
+    assert steepness(load_scene({}).sea) == 0.0
+
+
+# Waves and current.
+
+def test_a_wave_of_the_scene_that_cannot_run_against_its_current_is_refused():
+    said = refusal({'sea.waves': [0.1, 5.0, 0.0, 0.0, 0.1, 2.0, 3.0, 0.5],
+                    'sea.current': [1.0, 0.0]})
+    assert said.startswith('sea.waves: row 2 is [0.1, 2.0, 3.0, 0.5], which cannot run against '
+                           '0.99 m/s of sea.current: [1.0, 0.0]; expected a period of at least ')
+
+
+def test_the_waves_of_an_irregular_sea_that_the_current_stops_are_left_out_and_told_of():
+    sea = {'sea.significant_height': 2.0, 'sea.peak_period': 5.0, 'sea.components': 200}
+    # On U against them there are no waves beyond g / (4 U), here 1.6 of the peak's frequency.
+    against = 9.81 / (4.0 * 1.6 * 2.0 * math.pi / 5.0)
+    scene = load_scene({**sea, 'sea.current': [-against, 0.0]})
+    assert scene.sea.waves[:, 1].min() == pytest.approx(5.0 / 1.6, rel=0.02)
+    edges = np.geomspace(0.3, 100.0, 100001)
+    energy = np.append(0.0, np.cumsum(0.5 * (spectra.jonswap(edges[1:]) + spectra.jonswap(
+        edges[:-1])) * np.diff(edges)))
+    part = 1.0 - np.interp(1.6, edges, energy) / energy[-1]
+    assert 1.0 - len(scene.sea.waves) / 200 == pytest.approx(part, abs=1.0 / 200)
+    assert scene.sea.significant_height == pytest.approx(2.0 * math.sqrt(1.0 - part), rel=0.005)
+    said, = (sentence for sentence in scene.warnings if 'sea.current stops' in sentence)
+    left_out = 200 - len(scene.sea.waves)
+    assert said.startswith(f'sea.current stops {left_out} of the 200 waves of the irregular sea, '
+                           f'{left_out / 200:.0%} of its energy: ')
+    # What is left is as it is without the current, and all of it is there where it goes along.
+    whole = load_scene(sea).sea.waves
+    assert (scene.sea.waves[:, None] == whole).all(axis=2).any(axis=1).all()
+    for current in ([against, 0.0], [0.0, against]):
+        other = load_scene({**sea, 'sea.current': current})
+        assert np.array_equal(other.sea.waves, whole)
+        assert not any('sea.current' in sentence for sentence in other.warnings)
+
+
+def test_a_current_that_stops_the_peak_of_an_irregular_sea_is_refused():
+    said = refusal({'sea.sea_state': 3, 'sea.current': [-3.0, 0.0]})
+    assert said.startswith('sea.current: [-3.0, 0.0] m/s stops 16 of the 16 waves of the '
+                           'irregular sea, which have 100% of its energy; expected')
+    # As parts of a spread sea run across it, it stops less of that.
+    sea = {'sea.sea_state': 3, 'sea.current': [-1.2, 0.0], 'sea.components': 200}
+    spread = load_scene({**sea, 'sea.spreading': 2.0}).sea
+    assert len(spread.waves) > len(load_scene(sea).sea.waves)
 
 
 # Together wrong.
@@ -651,8 +733,8 @@ CHANGES = {
     'damping.linear': [10.0] * 6, 'damping.quadratic': [5.0] * 6,
     'sea.waves': [0.1, 4.0, 0.0, 0.0], 'sea.sea_state': 3, 'sea.current': [0.5, 0.0],
     'wind.velocity': [3.0, 4.0], 'wind.drag': [2.0, 5.0, -1.0],
-    'sea.depth': 5.0, 'sea.transition': 1.0, 'thrust.timeout': 2.0, 'gravity': 3.7,
-    'start.position': [1.0, 2.0], 'hull.size': [5.0, 2.0, 1.0], 'rate': 50.0,
+    'sea.spreading': 10.0, 'sea.depth': 5.0, 'sea.transition': 1.0, 'thrust.timeout': 2.0,
+    'gravity': 3.7, 'start.position': [1.0, 2.0], 'hull.size': [5.0, 2.0, 1.0], 'rate': 50.0,
     'hull.bottom': -0.4, 'water_density': 1000.0}
 
 

@@ -12,15 +12,21 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
+from io import StringIO
 import math
+import os
 from pathlib import Path
 import re
+import signal
+import subprocess
+import sys
 
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.boat.state import body_frame, center_of_mass_state
 from boat_buoyancy.physics.rotation import to_roll_pitch_yaw
 from boat_buoyancy.physics.stepping.simulation import periods_of, Simulation
-from boat_buoyancy.tools import animate, plot, simulate
+from boat_buoyancy.tools import (animate, hull_outline, plot, progress, simulate,
+                                 simulate_text)
 from boats import turned
 import numpy as np
 from PIL import Image
@@ -169,16 +175,23 @@ def test_plot_is_drawn_as_what_its_name_says(wavy, tmp_path, ending, begins):
 
 def plotted(values, duration=1.0):
     from matplotlib.figure import Figure
-    return load_scene(values).simulation().run(duration), Figure().subplots(3, 1)
+    return load_scene(values).simulation().run(duration), Figure().subplots(5, 1)
 
 
 def test_plot_shows_the_run_with_units_on_every_axis():
-    run, (heave, tilt, depth) = plotted(WAVES)
+    run, (heave, tilt, speed, heading, depth) = plotted(WAVES)
     plot.draw_heave(heave, run)
     plot.draw_tilt(tilt, run)
+    plot.draw_speed(speed, run)
+    plot.draw_heading(heading, run)
     plot.draw_depths(depth, run)
-    assert [axes.get_ylabel() for axes in (heave, tilt, depth)] == [
-        'height (m)', 'angle (deg)', 'probe depth (m)\nunder water']
+    assert [axes.get_ylabel() for axes in (heave, tilt, speed, heading, depth)] == [
+        'height (m)', 'angle (deg)', 'speed (m/s)', 'heading (deg)',
+        'probe depth (m)\nunder water']
+    ahead, to_port = speed.get_lines()
+    assert np.array_equal(ahead.get_ydata(), run.body_velocity[:, 0])
+    assert np.array_equal(to_port.get_ydata(), run.body_velocity[:, 1])
+    assert np.radians(heading.get_lines()[0].get_ydata()[0]) == pytest.approx(0.4, abs=1e-12)
     surface, origin = heave.get_lines()
     assert np.array_equal(origin.get_ydata(), run.position[:, 2])
     sea = load_scene(WAVES).sea
@@ -198,11 +211,57 @@ def test_plot_shows_the_run_with_units_on_every_axis():
 
 
 def test_many_probes_are_drawn_as_their_spread():
-    run, (_, _, depth) = plotted({'hull.probes': [4, 3]}, 0.1)
+    run, (*_, depth) = plotted({'hull.probes': [4, 3]}, 0.1)
     plot.draw_depths(depth, run)
     assert len(depth.get_lines()) == 2
     assert depth.get_legend_handles_labels()[1] == [
         'water surface', 'all 12 probes', 'their mean']
+
+
+def test_no_probe_has_the_colour_of_the_water():
+    assert plot.WATER not in plot.COLOURS and len(set(plot.COLOURS)) == len(plot.COLOURS)
+
+
+def test_swings_that_would_run_into_each_other_are_drawn_as_their_band():
+    _, (axes, *_) = plotted({}, 0.01)
+    time = np.arange(360_001) / 100.0
+    # An hour of swings of 4 s about a slow drift: 900 of them on some 600 pixels.
+    drift = 0.1 * time / 3600.0
+    plot.draw_line(axes, time, np.cos(np.pi * time / 2) + drift, color='k', label='swings')
+    (low, high), (band,) = axes.get_lines(), axes.collections
+    assert low.get_label() == 'swings' and band.get_alpha() < 0.5
+    for edge, expected in ((low, -1.0), (high, 1.0)):
+        assert edge.get_xdata()[[0, -1]].tolist() == [0.0, 3600.0]
+        assert len(edge.get_xdata()) <= plot.COLUMNS
+        # The tops are hit to 1 - cos(pi / 400); a column drifts by 0.1 / 450.
+        assert edge.get_ydata() - drift[np.searchsorted(time, edge.get_xdata())] == (
+            pytest.approx(expected, abs=5e-4))
+
+
+def test_what_changes_slowly_stays_a_line_however_long_the_run():
+    _, (axes, *_) = plotted({}, 0.01)
+    time = np.arange(360_001) / 100.0
+    plot.draw_line(axes, time, np.cos(time / 60.0), color='k', label='slow')
+    line, = axes.get_lines()
+    assert len(line.get_xdata()) == len(time) and not axes.collections
+
+
+def test_heading_goes_on_after_a_turn_all_the_way_round():
+    run, (axes, *_) = plotted({'start.angular_velocity': [0.0, 0.0, 3.0],
+                               'damping.angular_retention': [1.0], 'damping.probe': 0.0}, 4.0)
+    plot.draw_heading(axes, run)
+    assert axes.get_lines()[0].get_ydata()[-1] == pytest.approx(math.degrees(12.0), rel=0.01)
+
+
+@pytest.mark.parametrize('words, said', [
+    ([], 'no thrust'),
+    (['--thrust', '300', '0', '0', '0', '0', '60'], 'thrust 300 0 0 N, 0 0 60 N m, body axes'),
+    (['--thruster', 'left=150', '--thruster', 'right=0'], 'thruster left=150, right=0 N')])
+def test_title_names_scene_and_thrust(words, said):
+    wam_v = str(CONFIG / 'wam_v.yaml')
+    arguments = simulate.parser().parse_args([wam_v, '--duration', '1', *words])
+    assert simulate_text.title(arguments, load_scene(wam_v).simulation()) == (
+        f'wam_v.yaml: 180 kg, leapfrog at 100 Hz\n{said}')
 
 
 def test_animation_has_a_frame_every_eighty_milliseconds_in_real_time(wavy, tmp_path):
@@ -225,33 +284,117 @@ def test_long_animations_are_played_faster():
     assert view.rows[0] == 0 and np.ptp(np.diff(view.rows)) <= 1
 
 
+def test_legend_of_an_animation_says_what_shades_dots_and_lines_mean():
+    simulation = load_scene(WAVES).simulation()
+    view = animate.view_of(simulation.run(0.1), simulation, [30.0, 40.0, 0.0, 0.0, 0.0, 9.0])
+    handles = animate.legend_of(view)
+    assert [handle.get_label() for handle in handles] == [
+        'probe in the water', 'probe in the air', 'track', 'thrust 50 N', 'crest, +0.45 m',
+        'trough, -0.45 m']
+    # Light crests and dark troughs, in the very colours of the water.
+    crest, trough = (handle.get_facecolor() for handle in handles[-2:])
+    assert crest == tuple(view.shades[-1]) and trough == tuple(view.shades[0])
+    assert sum(crest[:3]) > sum(trough[:3]) + 0.5
+    flat = load_scene({}).simulation()
+    assert [handle.get_label() for handle in animate.legend_of(
+        animate.view_of(flat.run(0.1), flat))] == [
+            'probe in the water', 'probe in the air', 'track']
+
+
+@pytest.mark.parametrize('speed, stands', [(1.0, True), (10.0, False)])
+def test_the_whole_track_is_shown_from_above_or_the_boat_is_followed(speed, stands):
+    from matplotlib.figure import Figure
+    simulation = load_scene({'start.velocity': [speed, 0.0, 0.0], 'damping.probe': 0.0,
+                             'damping.linear_retention': [1.0]}).simulation()
+    run, axes = simulation.run(10.0), Figure().subplots()
+    view = animate.view_of(run, simulation)
+    shown = []
+    for row in (0, 1000):
+        axes.clear()
+        animate.draw_above(axes, run, view, row)
+        west, east = axes.get_xlim()
+        shown.append(west)
+        # The hull is 4 m long.
+        assert west + 2.0 < run.position[row, 0] < east - 2.0
+    assert shown[1] - shown[0] == pytest.approx(0.0 if stands else run.position[-1, 0])
+
+
+def test_thrust_is_drawn_as_it_turns_with_the_boat():
+    from matplotlib.figure import Figure
+    simulation = load_scene({'start.orientation': [0.0, 0.0, math.pi / 2]}).simulation()
+    run, axes = simulation.run(0.1), Figure().subplots()
+    view = animate.view_of(run, simulation, [500.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    animate.draw_above(axes, run, view, 0)
+    arrow, = axes.texts
+    # Ahead is north.
+    assert np.subtract(arrow.xy, arrow.xyann) == pytest.approx(
+        (0.0, animate.ARROW * view.size))
+
+
+# Each is told to end when it shows that it is under way.
+@pytest.mark.parametrize('duration, under_way, file', [
+    ('9000', 'running: ', 'a.csv'), ('12', 'drawing: frame ', 'a.gif')])
+def test_long_work_shows_how_far_it_is_and_ends_with_one_line_on_ctrl_c(
+        tmp_path, duration, under_way, file):
+    process = subprocess.Popen(
+        [sys.executable, '-m', 'boat_buoyancy.tools.simulate', DEFAULT, '--duration', duration,
+         '--csv' if file.endswith('.csv') else '--animate', str(tmp_path / file)],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+        env={**os.environ, 'NUMBA_DISABLE_JIT': '1'})
+    with process:
+        line = process.stderr.readline()
+        while under_way not in line:
+            assert line, 'it ended by itself'
+            line = process.stderr.readline()
+        process.send_signal(signal.SIGINT)
+        assert process.stderr.read() == 'buoyancy_simulate: interrupted\n'
+        assert process.wait() == 130
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_is_silent_at_first_and_then_on_one_line(monkeypatch):
+    class Terminal(StringIO):
+
+        def isatty(self):
+            return True
+
+    now, terminal = [0.0], Terminal()
+    monkeypatch.setattr(progress, 'monotonic', lambda: now[0])
+    shown = progress.Progress(terminal, after=2.0, every=0.1)
+    for now[0] in (0.0, 1.9, 2.0, 2.05, 2.2):
+        shown(f'at {now[0]}')
+    assert terminal.getvalue() == '\rat 2.0\rat 2.2'
+    shown.clear()
+    assert terminal.getvalue().endswith('\r      \r')
+
+
 def test_hull_of_a_box_is_drawn_as_that_box():
     for probes in ([2, 2], [4, 3]):
-        corners, = animate.hull_shells(load_scene({
+        corners, = hull_outline.hull_shells(load_scene({
             'hull.size': [5.0, 2.0, 0.8], 'hull.probes': probes, 'hull.bottom': -0.3}).boat)
         assert corners.min(axis=0) == pytest.approx((-2.5, -1.0, -0.3), abs=1e-12)
         assert corners.max(axis=0) == pytest.approx((2.5, 1.0, 0.5), abs=1e-12)
 
 
 def test_each_hull_of_a_twin_is_drawn_by_itself():
-    shells = animate.hull_shells(load_scene({
+    shells = hull_outline.hull_shells(load_scene({
         'hull.shape': 'twin', 'hull.size': [5.0, 0.5, 0.8], 'hull.spacing': 2.0}).boat)
     assert [corners[:, 1].min() for corners in shells] == pytest.approx([-1.25, 0.75])
 
 
 def test_hull_of_probes_reaches_to_the_outermost():
-    corners, = animate.hull_shells(load_scene({
+    corners, = hull_outline.hull_shells(load_scene({
         'probes.positions': [1.0, 0.5, -0.1, -2.0, 0.0, 0.0, 1.0, -0.5, -0.1],
         'probes.stiffness': 4.0}).boat)
     assert corners.min(axis=0) == pytest.approx((-2.0, -0.5, -0.1))
     assert corners.max(axis=0) == pytest.approx((1.0, 0.5, 0.25))
-    lonely, = animate.hull_shells(load_scene({'probes.positions': [0.0, 0.0, 0.0]}).boat)
+    lonely, = hull_outline.hull_shells(load_scene({'probes.positions': [0.0, 0.0, 0.0]}).boat)
     assert (np.ptp(lonely, axis=0) > 0.1).all()
 
 
 def test_outline_is_the_convex_hull():
     points = np.random.default_rng(1).normal(size=(200, 2))
-    line = animate.outline(points)
+    line = hull_outline.outline(points)
     edges = np.roll(line, -1, axis=0) - line
     turns = edges[:, 0] * np.roll(edges, -1, axis=0)[:, 1] - (
         edges[:, 1] * np.roll(edges, -1, axis=0)[:, 0])

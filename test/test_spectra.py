@@ -120,6 +120,55 @@ def test_another_seed_has_other_phases_and_the_same_frequencies():
     assert (np.abs(one[:, 3] - two[:, 3]) > 1e-3).all()
 
 
+def test_no_spreading_is_the_sea_of_one_direction_and_any_keeps_all_but_directions():
+    sea = {'direction': 0.4, 'components': 33, 'seed': 5}
+    long_crested = spectra.jonswap_waves(2.0, 8.0, **sea)
+    assert (long_crested[:, 2] == 0.4).all()
+    assert np.array_equal(long_crested, spectra.jonswap_waves(2.0, 8.0, spreading=0.0, **sea))
+    spread = spectra.jonswap_waves(2.0, 8.0, spreading=10.0, **sea)
+    assert np.array_equal(np.delete(long_crested, 2, 1), np.delete(spread, 2, 1))
+    assert len(set(spread[:, 2])) == 33
+
+
+@pytest.mark.parametrize('s', [1.0, 5.0, 10.0, 75.0])
+@pytest.mark.parametrize('count', [2, 16, 1000])
+def test_the_directions_have_the_mean_and_the_spread_of_the_distribution(count, s):
+    directions = spectra.jonswap_waves(2.0, 8.0, direction=0.7, components=count,
+                                       spreading=s)[:, 2]
+    # Circular moments of equal energies; those of cos^2s(theta / 2): m1 = s / (1 + s).
+    moment = np.exp(1j * directions).mean()
+    assert np.angle(moment) == pytest.approx(0.7, abs=1e-12)
+    assert np.sqrt(2.0 * (1.0 - abs(moment))) == pytest.approx(np.sqrt(2.0 / (1.0 + s)), rel=1e-6)
+
+
+@pytest.mark.parametrize('s', [1.0, 10.0])
+def test_each_direction_holds_an_equal_part_of_the_distribution(s):
+    def energy(angle):
+        return integrate.quad(lambda a: np.cos(a / 2.0) ** (2.0 * s), -np.pi, angle)[0]
+    parts = [energy(a) / energy(np.pi) for a in spectra.equal_energy_directions(17, s)]
+    # The middle one is the mean direction itself.
+    assert (np.floor(np.multiply(parts, 17)) == np.arange(17)).all()
+    assert parts[8] == pytest.approx(0.5, abs=1e-12)
+
+
+def test_a_wave_of_any_frequency_goes_anywhere_and_the_seed_says_where():
+    def directions(seed):
+        return spectra.jonswap_waves(2.0, 8.0, components=1000, seed=seed, spreading=10.0)[:, 2]
+    assert np.array_equal(directions(3), directions(3))
+    assert not np.array_equal(directions(3), directions(4))
+    for seed in range(5):
+        # Of independent ranks the correlation scatters by 1 / sqrt(1000).
+        ranks = np.argsort(np.argsort(directions(seed)))
+        assert abs(np.corrcoef(ranks, np.arange(1000))[0, 1]) < 4.0 / np.sqrt(1000.0)
+
+
+def test_the_same_seed_is_the_same_spread_sea_for_ever():
+    waves = spectra.jonswap_waves(2.0, 8.0, direction=0.5, components=4, seed=7, spreading=10.0)
+    np.testing.assert_allclose(waves[:, 2], [
+        0.6664634345766368, -0.08808444953306138, 1.0880844495330562, 0.3335365654233641],
+        rtol=1e-12)
+
+
 def test_phases_fill_the_circle_evenly():
     phases = spectra.jonswap_waves(2.0, 8.0, components=1000)[:, 3]
     assert (0.0 <= phases).all() and (phases < 2 * np.pi).all()
@@ -164,6 +213,7 @@ def test_the_shortest_peak_still_makes_waves_that_a_sea_takes():
     ({'significant_height': np.nan}, 'sea.significant_height'),
     ({'peak_period': 0.0}, 'sea.peak_period'), ({'peak_period': np.inf}, 'sea.peak_period'),
     ({'components': 0}, 'sea.components'), ({'components': 4.0}, 'sea.components'),
+    ({'spreading': -1.0}, 'sea.spreading'), ({'spreading': np.nan}, 'sea.spreading'),
     ({'seed': -1}, 'sea.seed'), ({'seed': 1.5}, 'sea.seed'),
     ({'direction': np.nan}, 'sea.direction')])
 def test_wrong_numbers_are_named(wrong, name):

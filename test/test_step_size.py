@@ -112,6 +112,16 @@ def test_the_limit_of_pure_drag_is_that_of_water_or_of_air_whichever_drags_more(
         assert step_limit(boat, 'rk4').damping == approximately(DAMPING['rk4'] / 3.0)
 
 
+def test_the_limit_of_probe_damping_is_that_of_the_axis_that_it_damps_most():
+    for axis in range(3):
+        probe = np.where(np.arange(3) == axis, 3000.0, 1000.0)
+        boat = reference_boat(damping=undamped(probe=probe), positions=[[0.0, 0.0, 0.0]])
+        assert step_limit(boat, 'rk4').damping == approximately(DAMPING['rk4'] / 3.0)
+    # Surge, a metre to the side: yaw of 900 kg m^2 is damped more.
+    boat = reference_boat(damping=undamped(probe=[3000.0, 0.0, 0.0]))
+    assert step_limit(boat, 'rk4').damping == approximately(DAMPING['rk4'] / (3000.0 / 900.0))
+
+
 @pytest.mark.parametrize('integrator, ratio, limit', [
     # 2 / sqrt(1 - zeta^2); never from critical damping on.
     ('leapfrog', 0.6, 2.5), ('leapfrog', 1.1, None),

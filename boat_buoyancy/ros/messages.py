@@ -23,14 +23,8 @@ nobody misses it.
 from array import array
 import sys
 
-from geometry_msgs.msg import PoseStamped, TwistStamped
-from nav_msgs.msg import Odometry
 import numpy as np
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import PointCloud2, PointField
-from std_msgs.msg import Float64MultiArray
 
-from . import qos
 from .pacing import NANOSECONDS
 from ..physics.rotation import rotation_matrix, to_world
 from ..physics.vectors import add, cross, subtract
@@ -76,25 +70,28 @@ class Outputs:
     """
     The publishers of every period.
 
-    Main arguments: ``node``; ``scene``, for the frames and the number of probes; ``sensors``,
-    each a `Sensor`; ``more`` topics, (publisher, message, fill) each.  ``publish`` sends the
-    present state.
+    Main arguments: ``topics`` as `NodeTopics`; ``scene``, for the frames and the number of
+    probes; ``sensors``, each a `Sensor`; ``more`` topics, (publisher, message, fill) each.
+    ``publish`` sends the present state.
     """
 
-    def __init__(self, node, scene, sensors=(), more=()):
+    def __init__(self, topics, scene, sensors=(), more=()):
         """Create the publishers and their messages."""
         self._sensors = sensors
         world, body = scene.world_frame, scene.body_frame
-        pose, twist, odometry = PoseStamped(), TwistStamped(), Odometry(child_frame_id=body)
+        pose, twist, odometry = map(topics.make, (
+            'geometry_msgs/msg/PoseStamped', 'geometry_msgs/msg/TwistStamped',
+            'nav_msgs/msg/Odometry'))
         pose.header.frame_id = odometry.header.frame_id = world
-        twist.header.frame_id = body
+        twist.header.frame_id = odometry.child_frame_id = body
         self._topics = [
-            (node.create_publisher(type(message), topic, qos.OUTPUT), message, fill)
+            (topics.publisher(topic, message), message, fill)
             for topic, message, fill in (
                 ('pose', pose, _fill_pose), ('twist', twist, _fill_twist),
                 ('odom', odometry, _fill_odometry),
-                ('probe_depth', Float64MultiArray(), _fill_depths),
-                ('probes', _cloud(world, len(scene.boat.hull.positions)), _fill_cloud))]
+                ('probe_depth', topics.make('std_msgs/msg/Float64MultiArray'), _fill_depths),
+                ('probes', _cloud(topics.make, world, len(scene.boat.hull.positions)),
+                 _fill_cloud))]
         self._topics += more
 
     def publish(self, session):
@@ -115,10 +112,10 @@ class Outputs:
 class ClockOutput:
     """The source of /clock."""
 
-    def __init__(self, node):
+    def __init__(self, topics):
         """Create the publisher."""
-        self._publisher = node.create_publisher(Clock, '/clock', qos.OUTPUT)
-        self._message = Clock()
+        self._message = topics.make('rosgraph_msgs/msg/Clock')
+        self._publisher = topics.publisher('/clock', self._message)
 
     def publish(self, stamp):
         """Send a time in ns."""
@@ -168,14 +165,17 @@ def _fill_depths(message, frame):
     message.data = array('d', frame.simulation.probe_depths.tobytes())
 
 
-def _cloud(world, count):
+def _cloud(make, world, count):
     """Return the message of the probes in the world frame: x, y, z, depth and force of each."""
+    message, fields = make('sensor_msgs/msg/PointCloud2'), []
+    for i, name in enumerate(CLOUD_FIELDS):
+        field = make('sensor_msgs/msg/PointField')
+        field.name, field.offset, field.datatype, field.count = name, 4 * i, field.FLOAT32, 1
+        fields.append(field)
     size = 4 * len(CLOUD_FIELDS)
-    message = PointCloud2(
-        fields=[PointField(name=name, offset=4 * i, datatype=PointField.FLOAT32, count=1)
-                for i, name in enumerate(CLOUD_FIELDS)],
-        height=1, width=count, point_step=size, row_step=size * count,
-        is_bigendian=sys.byteorder == 'big', is_dense=True)
+    message.fields, message.height, message.width = fields, 1, count
+    message.point_step, message.row_step = size, size * count
+    message.is_bigendian, message.is_dense = sys.byteorder == 'big', True
     message.header.frame_id = world
     return message
 

@@ -41,6 +41,7 @@ from .sensors import sensors_of
 from .session import Session
 from .thrust import read_wrench
 from .thrusters import ThrusterInput
+from .topics import NodeTopics
 from .wave_messages import WavesInput, WavesOutput
 from .wind import read_wind
 from ..physics.compiled import notice
@@ -77,7 +78,7 @@ class BoatNode(ParameterNode):
             self.session = Session(scene)
         self._own_clock = scene.values['publish_clock']
         self.declare(scene)
-        LiveParameters(self, given, scene, self._change)
+        LiveParameters(self, given, scene, self.session.sea_with, self._change)
         self._paused = False
         # rclpy wants one severity for each line of code that it is called from.
         self._news = Throttle(lambda sentence: self.get_logger().info(sentence))
@@ -88,10 +89,12 @@ class BoatNode(ParameterNode):
         for sentence in startup.remarks(self, given, scene.values):
             self.get_logger().warning(sentence)
 
-        self._outputs = Outputs(self, scene, sensors_of(self, scene),
-                                transforms.topics_of(self, scene))
+        topics = NodeTopics(self)
+        self._outputs = Outputs(
+            topics, scene, sensors_of(topics, scene),
+            transforms.topics_of(topics, scene, self.get_clock().now().nanoseconds))
         self._markers = Markers(self, scene)
-        self._clock_output = ClockOutput(self) if self._own_clock else None
+        self._clock_output = ClockOutput(topics) if self._own_clock else None
         self._waves_output = WavesOutput(self)
         self._waves_input = WavesInput(self, self._reports.complaints, self._on_waves)
         guarded = self._reports.complaints.guarded

@@ -165,14 +165,15 @@ class LiveParameters:
     Parameters that change while the node runs: a set is judged as a whole, then applied.
 
     Main arguments: ``node``; ``given`` {name: value}, what the user gave; ``scene`` made of it;
-    ``apply`` (scene, plan, names that were set), called between two steps, with the `Plan` of
-    another boat, None where the boat is the same.
+    ``check`` (scene, names that were set), whose ValueError refuses what cannot go with what
+    runs; ``apply`` (scene, plan, names that were set), called between two steps, with the `Plan`
+    of another boat, None where the boat is the same.
     """
 
-    def __init__(self, node, given, scene, apply):
+    def __init__(self, node, given, scene, check, apply):
         """Take part in every set from now on."""
         self._node, self._at_start, self._given = node, dict(given), dict(given)
-        self._scene, self._apply = scene, apply
+        self._scene, self._check, self._apply = scene, check, apply
         self._proposal = self._refusal = None
         node.add_pre_set_parameters_callback(self._propose)
         node.add_on_set_parameters_callback(self._judge)
@@ -191,6 +192,7 @@ class LiveParameters:
             given = self._merged(requested)
             scene = scene_from_values(given, self._scene)
             names = {parameter.name for parameter in requested}
+            self._check(scene, names)
             plan = None if scene.boat is self._scene.boat else scene.plan()
             self._proposal = given, scene, plan, frozenset(names)
         except Exception as error:  # a raise here would be the end of the node

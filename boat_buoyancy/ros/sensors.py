@@ -23,9 +23,7 @@ from fractions import Fraction
 import zlib
 
 import numpy as np
-from sensor_msgs.msg import Imu, NavSatFix, NavSatStatus
 
-from . import qos
 from .geodesy import geodetic
 from .messages import set_stamp, set_vector
 from .pacing import NANOSECONDS
@@ -37,20 +35,21 @@ class Sensor:
     """
     A topic with a rate of its own: what `ImuSensor` and `FixSensor` share.
 
-    Main arguments: ``node``; ``scene``; ``kind`` of message; ``topic``, also the group of its
-    parameters; ``stream``, what makes its noise another than that of other sensors; the
-    node's name and namespace make it another than that of other boats.  Public: ``publisher``.
+    Main arguments: ``topics`` as `NodeTopics`; ``scene``; ``kind`` of message; ``topic``, also
+    the group of its parameters; ``stream``, what makes its noise another than that of other
+    sensors; the node's name and namespace make it another than that of other boats.  Public:
+    ``publisher``.
     """
 
-    def __init__(self, node, scene, kind, topic, stream):
+    def __init__(self, topics, scene, kind, topic, stream):
         """Create the publisher and its message."""
         values = scene.values
-        self.publisher = node.create_publisher(kind, topic, qos.OUTPUT)
-        self._message = kind()
+        self._message = topics.make(f'sensor_msgs/msg/{kind}')
+        self.publisher = topics.publisher(topic, self._message)
         # Its axes are the boat's: no transform is needed to use what it measures.
         self._message.header.frame_id = scene.body_frame
         self._place = values[f'{topic}.position']
-        boat = zlib.crc32(node.get_fully_qualified_name().encode())
+        boat = zlib.crc32(topics.name.encode())
         self._random = np.random.default_rng([values[f'{topic}.seed'], stream, boat])
         rate = Fraction(values[f'{topic}.rate'])
         self._always = rate >= Fraction(scene.rate)
@@ -88,9 +87,9 @@ class Sensor:
 class ImuSensor(Sensor):
     """The topic `imu`: attitude in the world, angular velocity and specific force on board."""
 
-    def __init__(self, node, scene):
+    def __init__(self, topics, scene):
         """Create the publisher."""
-        super().__init__(node, scene, Imu, 'imu', 0)
+        super().__init__(topics, scene, 'Imu', 'imu', 0)
         self._arm = subtract(self._place, tuple(scene.boat.center_of_mass.tolist()))
         self._deviations = [scene.values[f'imu.{name}_noise']
                             for name in ('orientation', 'gyroscope', 'accelerometer')]
@@ -127,18 +126,18 @@ def specific_force(frame, arm):
 class FixSensor(Sensor):
     """The topic `fix`: latitude, longitude and altitude of the antenna on the ellipsoid WGS84."""
 
-    def __init__(self, node, scene):
+    def __init__(self, topics, scene):
         """Create the publisher."""
-        super().__init__(node, scene, NavSatFix, 'fix', 1)
+        super().__init__(topics, scene, 'NavSatFix', 'fix', 1)
         self._datum = [scene.values[f'fix.{name}']
                        for name in ('latitude', 'longitude', 'altitude')]
         self._horizontal, self._vertical = scene.values['fix.noise']
         message = self._message
-        message.status.status, message.status.service = (
-            NavSatStatus.STATUS_FIX, NavSatStatus.SERVICE_GPS)
+        status = message.status
+        status.status, status.service = status.STATUS_FIX, status.SERVICE_GPS
         message.position_covariance[::4] = np.square(
             [self._horizontal, self._horizontal, self._vertical])
-        message.position_covariance_type = NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN
+        message.position_covariance_type = message.COVARIANCE_TYPE_DIAGONAL_KNOWN
 
     def _fill(self, message, frame):
         east, north, up = frame.to_world(self._place)
@@ -149,7 +148,7 @@ class FixSensor(Sensor):
             *self._datum, east, north, up)
 
 
-def sensors_of(node, scene):
+def sensors_of(topics, scene):
     """Return the sensors that a scene has."""
-    return [kind(node, scene) for kind, topic in ((ImuSensor, 'imu'), (FixSensor, 'fix'))
+    return [kind(topics, scene) for kind, topic in ((ImuSensor, 'imu'), (FixSensor, 'fix'))
             if scene.values[f'{topic}.rate'] > 0.0]

@@ -32,6 +32,7 @@ from ..physics.stepping.simulation import SimulationError
 
 # Parameters that ask for waves; the rest of sea.* only shapes them.
 WAVES = frozenset(name for kind in WAVE_KINDS for name in kind)
+SHAPES = ('sea.direction', 'sea.spreading', 'sea.components', 'sea.seed')
 
 
 class Session:
@@ -119,7 +120,11 @@ class Session:
         self.simulation.state = rest_state(self.scene.boat, yaw=yaw, x=x, y=y)
 
     def set_waves(self, rows):
-        """Go over to other waves, (W, 4); return False when they are those in force."""
+        """
+        Go over to other waves, (W, 4); return False when they are those in force.
+
+        ValueError, and nothing changes, when one of them cannot run against the current.
+        """
         if np.array_equal(rows, self.sea.waves):
             return False
         self.sea = replace(self.sea, waves=rows)
@@ -142,20 +147,34 @@ class Session:
         moving.  Waves and wind that came by message stay unless the scene's changed or ``names``,
         the parameters that were set, ask for them.
         """
-        before, self.scene = self.scene, scene
+        sea, self.scene = self.sea_with(scene, names), scene
         self.thrust.timeout = scene.thrust_timeout
         self.thrusters.set_timeout(scene.thrust_timeout)
         if plan is not None:
             self._change_boat(scene, plan)
-        if 'wind.velocity' in names or not np.array_equal(scene.sea.wind, before.sea.wind):
-            self.set_wind(scene.sea.wind)
-        waves = (scene.sea.waves if WAVES.intersection(names)
-                 or not np.array_equal(scene.sea.waves, before.sea.waves) else self.sea.waves)
-        if not np.array_equal(waves, self.sea.waves) or any(
-                scene.values[name] != before.values[name]
-                for name in ('sea.current', 'sea.depth')):
-            self.sea = replace(scene.sea, waves=waves, wind=self.sea.wind)
+        self.set_wind(sea.wind)
+        if not np.array_equal(sea.waves, self.sea.waves) or sea.depth != self.sea.depth or (
+                not np.array_equal(sea.current, self.sea.current)):
+            self.sea = sea
             self._fade_to_given()
+
+    def sea_with(self, scene, names):
+        """
+        Return the `Sea` after `change` to a scene, with the names of the parameters that were set.
+
+        ValueError when the waves that came by message cannot run against its current.
+        """
+        before = self.scene
+
+        def changed(name):
+            return scene.values[name] != before.values[name]
+        # Which of its waves a scene has to leave out goes by the current: that asks for no waves.
+        asked = WAVES.intersection(names) or any(map(changed, SHAPES)) and not np.array_equal(
+            scene.sea.waves, before.sea.waves)
+        own = asked or np.array_equal(self.sea.waves, before.sea.waves)
+        windy = 'wind.velocity' in names or changed('wind.velocity')
+        return replace(scene.sea, waves=(scene if own else self).sea.waves,
+                       wind=(scene if windy else self).sea.wind)
 
     def _change_boat(self, scene, plan):
         """Step the boat of a scene from now on, as a `Plan` says."""

@@ -18,22 +18,19 @@ Where the boat is as tf2 wants it: `/tf` every period and, with a map, `/tf_stat
 tf2_msgs comes with every ROS installation, but not with the wheels: only this needs it.
 """
 
-from geometry_msgs.msg import TransformStamped
+from importlib import import_module
 
-from . import qos
 from .messages import set_stamp, set_vector
-
-try:
-    from tf2_msgs.msg import TFMessage
-except ImportError as error:
-    TFMessage, MISSING = None, str(error)
 
 
 def check(values):
     """Raise ValueError for parameters that ask for transforms where tf2_msgs is not installed."""
-    if values['publish_tf'] and TFMessage is None:
-        raise ValueError(f'publish_tf: needs tf2_msgs ({MISSING}): apt install '
-                         'ros-jazzy-tf2-msgs, or set publish_tf to false')
+    if values['publish_tf']:
+        try:
+            import_module('tf2_msgs.msg')
+        except ImportError as error:
+            raise ValueError(f'publish_tf: needs tf2_msgs ({error}): apt install '
+                             'ros-jazzy-tf2-msgs, or set publish_tf to false') from None
 
 
 def prefix(namespace):
@@ -41,28 +38,31 @@ def prefix(namespace):
     return namespace.strip('/') + '/' if namespace.strip('/') else ''
 
 
-def topics_of(node, scene):
+def topics_of(topics, scene, now):
     """
     Return the topics of every period that a scene asks for: (publisher, message, fill) each.
 
-    The map is where the world is: that is said once, and kept for late listeners.
+    Main arguments: ``topics`` as `NodeTopics`; ``scene``; ``now`` ns.  The map is where the world
+    is: that is said once, and kept for late listeners.
     """
     if not scene.values['publish_tf']:
         return []
     map_frame = scene.values['map_frame']
     if map_frame:
-        same_place = _message(map_frame, scene.world_frame)
-        set_stamp(same_place.transforms[0].header.stamp, node.get_clock().now().nanoseconds)
-        node.create_publisher(TFMessage, '/tf_static', qos.FIXED_TRANSFORMS).publish(same_place)
-    return [(node.create_publisher(TFMessage, '/tf', qos.TRANSFORMS),
-             _message(scene.world_frame, scene.body_frame), _fill)]
+        same_place = _message(topics.make, map_frame, scene.world_frame)
+        set_stamp(same_place.transforms[0].header.stamp, now)
+        topics.publisher('/tf_static', same_place).publish(same_place)
+    moving = _message(topics.make, scene.world_frame, scene.body_frame)
+    return [(topics.publisher('/tf', moving), moving, _fill)]
 
 
-def _message(parent, child):
+def _message(make, parent, child):
     """Return a TFMessage of one transform, which turns and moves nothing so far."""
-    transform = TransformStamped(child_frame_id=child)
-    transform.header.frame_id = parent
-    return TFMessage(transforms=[transform])
+    message, transform = make('tf2_msgs/msg/TFMessage'), make('geometry_msgs/msg/TransformStamped')
+    transform.header.frame_id, transform.child_frame_id = parent, child
+    transform.transform.rotation.w = 1.0
+    message.transforms = [transform]
+    return message
 
 
 def _fill(message, frame):

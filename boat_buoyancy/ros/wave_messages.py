@@ -77,7 +77,12 @@ def read_waves(values):
         kind = ('wrong length' if len(values) % 4 else
                 'too many rows' if len(values) > 4 * MAX_COMPONENTS else
                 'out of range' if all(map(math.isfinite, values)) else 'not finite')
-        raise Refused(kind, str(error).replace('sea.waves', TOPIC, 1)) from None
+        raise refused(kind, error) from None
+
+
+def refused(kind, error):
+    """Return what a ValueError about waves says, as `Refused` of a message."""
+    return Refused(kind, str(error).replace('sea.waves', TOPIC, 1))
 
 
 class WavesInput:
@@ -85,7 +90,7 @@ class WavesInput:
     The subscriptions to `wave_parameters`.
 
     Main arguments: ``node``; ``complaints``, which count what is refused; ``take`` (rows), called
-    with the waves (W, 4) of every message that is right.
+    with the waves (W, 4) of every message that is right; its ValueError refuses them.
     """
 
     def __init__(self, node, complaints, take):
@@ -125,7 +130,11 @@ class WavesInput:
         # Of a message that is too long to be good, the length has to do.
         content = raw if len(raw) <= MAX_BYTES else len(raw)
         if not self._duplicates.is_copy(subscription, content, time.monotonic()):
-            self._take(read_waves(unpack_waves(raw)))
+            rows = read_waves(unpack_waves(raw))
+            try:
+                self._take(rows)
+            except ValueError as error:
+                raise refused('against the current', error) from None
 
 
 class Duplicates:

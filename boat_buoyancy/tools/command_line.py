@@ -22,6 +22,9 @@ import warnings
 
 from ..physics.stepping.simulation import SimulationError
 
+# Modules of the extras that Ubuntu 24.04 has no package of.
+NOT_IN_UBUNTU = ('capytaine', 'rosbags')
+
 
 class OneLineParser(argparse.ArgumentParser):
     """An argument parser that says what is wrong in one line and ends with exit code 2."""
@@ -57,22 +60,25 @@ def require_extra(extra, what, *modules):
         except ImportError as error:
             missing[module] = error
     if missing:
-        packages = ' '.join(f'python3-{module}' for module in missing)
+        packages = [f'python3-{module}' for module in missing if module not in NOT_IN_UBUNTU]
         raise ValueError(
             f'{what} needs {" and ".join(missing)} ({"; ".join(map(str, missing.values()))}): '
-            f'pip install "boat_buoyancy[{extra}]", or on Ubuntu apt install {packages}')
+            f'pip install "boat_buoyancy[{extra}]"'
+            + (f', or on Ubuntu apt install {" ".join(packages)}' if packages else ''))
 
 
-def check_picture(option, path, endings):
+def check_output(option, path, endings, extra='chart', module='matplotlib'):
     """
-    Raise ValueError or OSError now for a picture that could not be written later.
+    Raise ValueError or OSError now for a file that could not be written later.
 
-    ``option`` asks for it, as '--plot'; ``path`` of its file; ``endings`` that it may have.
+    Main arguments: ``option`` asks for it, as '--plot'; ``path`` of the file; ``endings`` that it
+    may have.
+    Other arguments: ``extra`` and its ``module``, which write it.
     """
     if path.suffix.lower() not in endings:
         raise ValueError(f'{option}: expected a file name that ends in {" or ".join(endings)}, '
                          f'got {str(path)!r}')
-    require_extra('chart', option, 'matplotlib')
+    require_extra(extra, option, module)
     check_writable(path)
 
 
@@ -89,8 +95,8 @@ def run(program, work):
     Return the exit code of a program whose ``work`` is a function without arguments.
 
     0; or 2 after one line on standard error for input that is wrong (ValueError, OSError) and a
-    motion that leaves what physics allows (SimulationError); or 130 when interrupted.  A reader
-    that closes the pipe early, as ``head`` does, is no error.
+    motion that leaves what physics allows (SimulationError); or 130 after one when interrupted.
+    A reader that closes the pipe early, as ``head`` does, is no error.
     """
     try:
         with warnings.catch_warnings():
@@ -108,6 +114,7 @@ def run(program, work):
     except (ValueError, SimulationError) as error:
         return _refuse(program, error)
     except KeyboardInterrupt:
+        print(f'{program}: interrupted', file=sys.stderr)
         return 130
     return 0
 

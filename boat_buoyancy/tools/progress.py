@@ -21,14 +21,24 @@ PERIOD = 10.0
 
 
 class Progress:
-    """One line on standard error that is written over, where there is somebody to see it."""
+    """
+    One line on standard error that is written over, where there is somebody to see it.
 
-    def __init__(self, stream):
-        """Write to ``stream``."""
+    Main arguments: ``stream``.
+    Other arguments: nothing is shown in the first ``after`` s, nor sooner than ``every`` s after
+    the last text.
+    """
+
+    def __init__(self, stream, *, after=0.0, every=0.0):
+        """Show nothing so far."""
         self._stream, self._width, self._next = stream, 0, 0.0
+        self._every, self._from = every, monotonic() + after
 
     def __call__(self, text):
         """Show a text in place of the last; in a file, a line now and then."""
+        if monotonic() < self._from:
+            return
+        self._from = monotonic() + self._every
         if self._stream.isatty():
             self._stream.write(f'\r{text.ljust(self._width)}')
             self._width = len(text)

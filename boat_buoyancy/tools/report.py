@@ -15,9 +15,11 @@
 """
 Print what a boat will do before it does it: ``buoyancy_report SCENE [--json] [--plot FILE.png]``.
 
-Rest, stability, periods, steps and righting arms of a parameter file's boat, in still water.
+Rest, stability, periods, handling, steps and righting arms of a parameter file's boat, in still
+water, and how it meets its sea.
 """
 
+from dataclasses import replace
 import json
 from pathlib import Path
 import sys
@@ -25,7 +27,9 @@ import sys
 import numpy as np
 
 from . import command_line
+from .handling import handling
 from .report_text import text
+from ..physics import checks
 from ..physics.compiled import expected_kind
 from ..physics.hydrostatics.metacentric_height import metacentric_heights
 from ..physics.hydrostatics.natural_modes import MODES, modes
@@ -35,6 +39,7 @@ from ..physics.hydrostatics.righting_arm import (
 from ..physics.hydrostatics.warnings import HEELS, parting_warnings
 from ..physics.hydrostatics.wetted_surface import wetted_surface
 from ..physics.scene.scene import load_scene
+from ..physics.sea.steepness import steepness
 from ..physics.step_size.limits import max_stable_steps, notice_of
 
 PROGRAM = 'buoyancy_report'
@@ -46,10 +51,11 @@ ROUND_OFF = 1e-9
 NEAR, MUCH = 0.2, 0.1
 
 
-def figures(scene):
+def figures(scene, push=None):
     """
     Return what ``--json`` prints of a `Scene`: names with their units, to numbers or None.
 
+    ``push`` N ahead, as of `handling`.
     None stands for what does not exist: the draft of a boat that sinks, the period of what does
     not oscillate, the limit of an integrator without one, the surface of probes.
     """
@@ -58,7 +64,9 @@ def figures(scene):
     transverse, longitudinal = metacentric_heights(boat) if rest else (None, None)
     roll, pitch = np.degrees(rest_attitude(boat)).tolist() if rest else (None, None)
     motions = modes(boat) if rest else {}
-    periods = {name: motions[name].period if rest else None for name in MODES}
+    bare = modes(replace(boat, added_mass=np.zeros(6))) if rest else {}
+    periods, bare_periods = ({name: found[name].period if rest else None for name in MODES}
+                             for found in (motions, bare))
     heel = np.radians(HEELS)
     exact = None if surface is None else surface_righting_arms(boat, heel)
     # On panels they are the same to round-off.
@@ -79,6 +87,8 @@ def figures(scene):
         **{f'{name}_period_s': periods[name] for name in MODES},
         **{f'{name}_damping_ratio': motions[name].damping_ratio if rest else None
            for name in MODES},
+        **{f'{name}_period_without_added_mass_s': bare_periods[name] for name in MODES},
+        'handling': handling(scene, push) if rest else None,
         'max_stable_step_s': max_stable_steps(boat),
         'substeps': plan.substeps,
         'sea': sea_figures(scene.sea, periods),
@@ -148,17 +158,19 @@ def sea_figures(sea, periods):
     """
     Return what a boat of natural ``periods`` {name: s or None} should know of a `Sea`.
 
-    {name: number}, and ``meets``, the names of the motions that it excites; None in flat water.
+    {name: number}, and ``meets``, the names of the motions that it excites in a boat that drifts
+    with the current; None in flat water.
     """
     if sea.ends is None:
         return None
-    found = {'significant_height_m': sea.significant_height}
+    found = {'significant_height_m': sea.significant_height, 'steepness': steepness(sea)}
     for name, row in zip(('shortest', 'longest'), sea.ends):
         found[f'{name}_wave_m'] = float(2.0 * np.pi / np.hypot(*sea.wave_vector[row]))
         found[f'{name}_wave_s'] = float(sea.waves[row, 1])
     share = sea.waves[:, 0] ** 2 / np.sum(sea.waves[:, 0] ** 2)
+    felt = 2.0 * np.pi / sea.intrinsic_frequency
     found['meets'] = [name for name, period in periods.items() if period is not None and share[
-        np.abs(sea.waves[:, 1] - period) <= NEAR * period].sum() >= MUCH]
+        np.abs(felt - period) <= NEAR * period].sum() >= MUCH]
     return found
 
 
@@ -170,19 +182,25 @@ def main(arguments=None):
     """Run the program and return its exit code."""
     parser = command_line.scene_parser(PROGRAM, 'Print what a boat will do before it does it.')
     parser.add_argument('--json', action='store_true', help='print JSON, for programs')
+    parser.add_argument('--thrust', metavar='N', type=float,
+                        help='push ahead in N that the boat is to answer; without it all that its '
+                             'thrusters give, or 1 N for each kg of its mass')
     parser.add_argument('--plot', metavar='FILE.png', type=Path,
                         help='draw the righting arm over heel, of the model and of the hull')
     given = parser.parse_args(arguments)
 
     def report():
+        push = given.thrust
+        if push is not None:
+            checks.number('--thrust', push, above=0.0)
         scene = load_scene(given.scene)
         if compiling := notice_of(scene.boat):
             print(f'{PROGRAM}: {compiling}', file=sys.stderr)
         if given.plot is not None:
-            command_line.check_picture('--plot', given.plot, ('.png',))
+            command_line.check_output('--plot', given.plot, ('.png',))
             from . import righting_arm_plot
             righting_arm_plot.draw(given.plot, scene.boat, Path(given.scene).stem)
-        result = figures(scene)
+        result = figures(scene, push)
         if given.json:
             print(json.dumps(result, indent=2, allow_nan=False))
             return

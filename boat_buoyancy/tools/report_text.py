@@ -34,7 +34,8 @@ def text(source, scene, result):
     """
     return '\n'.join([
         f'{source}: {scene.boat.mass:.6g} kg, {_model(scene)}', '',
-        *_at_rest(result), '', *_motions(result), '', *_sea(result), '',
+        *_at_rest(result), '', *_motions(scene.boat, result), '', *_handling(result),
+        *_sea(result), '',
         *_steps(result, scene), '', *_righting(scene.boat, result), '', *_warnings(result)])
 
 
@@ -80,12 +81,37 @@ def attitude(result):
             f'trim {trim if abs(pitch) >= UNSEEN_ANGLE else "none"}')
 
 
-def _motions(result):
-    yield 'Small motions about rest    period s   damping ratio (1 = no overshoot)'
+def _motions(boat, result):
+    added = boat.added_mass.any()
+    yield ('Small motions about rest    period s   damping ratio (1 = no overshoot)'
+           + ('   period s without added mass' if added else ''))
     for name in MODES:
         period, ratio = result[f'{name}_period_s'], result[f'{name}_damping_ratio']
-        yield f'  {name:<23} {_number(period, 5):>10}   {_number(ratio, 3):>10}'
-    yield '  The mass of water that moves along is not modelled: real hulls are slower.'
+        bare = result[f'{name}_period_without_added_mass_s']
+        yield (f'  {name:<23} {_number(period, 5):>10}   {_number(ratio, 3):>10}'
+               + (f'{_number(bare, 5):>33}' if added else ''))
+    if not added:
+        yield ('  Without the mass of water that moves along (added_mass): real hulls are slower, '
+               'by up to 1.9;')
+        yield '  buoyancy_hydrodynamics prints it.'
+
+
+def _handling(result):
+    found = result['handling']
+    if found is None:
+        return
+    yield 'Handling in still water'
+    speed, torque = found['speed_ahead_m_per_s'], found['turning_torque_n_m']
+    time, needed = found['time_to_turn_90_deg_s'], found['push_for_1_m_per_s_n']
+    yield (f'  speed ahead      {_speed(speed):>10} m/s pushed by {found["push_n"]:.4g} N; '
+           f'{needed:.4g} N hold 1 m/s')
+    if time is not None:
+        yield f'  turn of 90 deg   {time:>10.3g} s   from rest, by {torque:.4g} N m'
+    yield ''
+
+
+def _speed(speed):
+    return 'no limit' if speed is None else f'{speed:.3g}'
 
 
 def _sea(result):
@@ -95,8 +121,9 @@ def _sea(result):
         return
     ends = [f'{sea[f"{name}_wave_m"]:.3g} m ({sea[f"{name}_wave_s"]:.3g} s)'
             for name in ('shortest', 'longest')]
-    yield (f'Sea: significant height {sea["significant_height_m"]:.3g} m; the waves that matter '
-           f'are {" to ".join(dict.fromkeys(ends))} long')
+    yield (f'Sea: significant height {sea["significant_height_m"]:.3g} m, steepness '
+           f'{_ratio(sea["steepness"])}; the waves that matter are '
+           f'{" to ".join(dict.fromkeys(ends))} long')
     met = ' and '.join(f'{name} ({result[f"{name}_period_s"]:.3g} s)' for name in sea['meets'])
     yield (f'  They meet the natural period of {met}: expect large motions.' if met
            else '  No natural period meets them.')
@@ -187,6 +214,11 @@ def _filled(sentence, first, rest):
 def _heel(degrees, digits=1):
     """Return an angle of heel in words."""
     return f'{abs(degrees):.{digits}f} degrees to {"starboard" if degrees > 0.0 else "port"}'
+
+
+def _ratio(value):
+    """Return a part of 1 as sailors say it, 1/23."""
+    return f'1/{1.0 / value:{".0f" if value < 0.1 else ".2g"}}'
 
 
 def _counted(count, noun):

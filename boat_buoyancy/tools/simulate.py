@@ -15,7 +15,8 @@
 """
 Run a boat and write down what it does: ``buoyancy_simulate SCENE --duration S [...]``.
 
-A table (CSV), a plot and an animation of its motion, as asked for, and a summary.
+A table (CSV), a plot, an animation and a recording (MCAP) of its motion, as asked for, and a
+summary.
 """
 
 import argparse
@@ -26,13 +27,16 @@ from time import perf_counter
 
 import numpy as np
 
-from . import animate, command_line, plot
+from . import animate, command_line, plot, recording, simulate_text
+from .progress import Progress
 from ..physics import checks, load_scene
 from ..physics.compiled import notice
 from ..physics.stepping.integrators import INTEGRATORS
 from ..physics.stepping.march import march_by
 
 PROGRAM = 'buoyancy_simulate'
+# Time in s that is waited for without a word.
+PATIENCE = 2.0
 THRUST = ('FX', 'FY', 'FZ', 'TX', 'TY', 'TZ')
 
 
@@ -47,9 +51,11 @@ def parser():
     option('--every', metavar='N', type=int, default=1,
            help='every N-th row of the table only, from time 0 on')
     option('--plot', metavar='FILE.png', type=Path,
-           help='heave, roll, pitch and probe depths over time (.png, .pdf or .svg)')
+           help='heave, attitude, speed and probe depths over time (.png, .pdf or .svg)')
     option('--animate', metavar='FILE.gif', type=Path,
            help='the boat on its water, from the side and from above')
+    option('--mcap', metavar='FILE.mcap', type=Path,
+           help='what the node would publish, for Foxglove and ros2 bag play')
     option('--thrust', metavar=THRUST, type=float, nargs=6, default=[0.0] * 6,
            help='constant push, N and N m, body axes, at the body origin')
     option('--thruster', metavar='NAME=N', action='append', default=[],
@@ -96,57 +102,14 @@ def check_outputs(arguments):
     checks.count('--every', arguments.every, at_least=1)
     if arguments.every > 1 and arguments.csv is None:
         raise ValueError('--every: it thins the table, and none is asked for; give --csv FILE')
-    for name, path, endings in (('--plot', arguments.plot, plot.ENDINGS),
-                                ('--animate', arguments.animate, animate.ENDINGS)):
+    for name, path, *how in (
+            ('--plot', arguments.plot, plot.ENDINGS),
+            ('--animate', arguments.animate, animate.ENDINGS),
+            ('--mcap', arguments.mcap, recording.ENDINGS, 'bag', 'rosbags')):
         if path is not None:
-            command_line.check_picture(name, path, endings)
+            command_line.check_output(name, path, *how)
     if arguments.csv is not None:
         command_line.check_writable(arguments.csv)
-
-
-def summary(arguments, simulation, run, seconds):
-    """
-    Return what was run and what came of it, as lines.
-
-    ``arguments`` of the program; ``simulation`` at its end and ``run``, its `Trajectory`;
-    ``seconds`` of wall time that the run took.
-    """
-    thrust = arguments.thrust
-    boat, sea, steps = simulation.boat, simulation.sea, simulation.steps * simulation.substeps
-    # Rounded, and without the sign of a zero.
-    x, y, z = np.round(run.position[-1], 3) + 0.0
-    angles = np.round(np.degrees(run.roll_pitch_yaw), 3) + 0.0
-    heave = np.round(run.position[:, 2], 3) + 0.0
-    speed = np.linalg.norm(run.body_velocity, axis=1)
-    count, depths = len(boat.hull.positions), run.probe_depths
-    yield (f'{arguments.scene}: {run.time[-1]:g} s at {simulation.rate:g} Hz, '
-           f'{simulation.integrator}, {_count(simulation.substeps, "step")} per period')
-    law = f', law {boat.hull.law}' if boat.hull.panels is None else ''
-    yield (f'boat     {boat.mass:g} kg on {boat.hull.carriers}{law}; '
-           f'{"flat water" if sea.is_flat else _count(len(sea.waves), "wave")}, '
-           f'current {np.hypot(*sea.current):.3g} m/s, wind {np.hypot(*sea.wind):.3g} m/s')
-    if any(thrust):
-        yield f'thrust   {_joined(thrust[:3])} N, {_joined(thrust[3:])} N m, body axes'
-    if arguments.thruster:
-        yield f'thruster {", ".join(arguments.thruster)} N'
-    yield from (f'warning: {sentence}' for sentence in simulation.warnings)
-    yield f'end      x {x:.3f}, y {y:.3f}, z {z:.3f} m; speed {speed[-1]:.4f} m/s'
-    yield 'attitude roll {:.3f}, pitch {:.3f}, yaw {:.3f} deg'.format(*angles[-1])
-    yield (f'extremes roll {abs(angles[:, 0]).max():.3f}, pitch {abs(angles[:, 1]).max():.3f} deg '
-           f'either way; heave {heave.min():.3f} to {heave.max():.3f} m; '
-           f'speed {speed.max():.3f} m/s')
-    yield (f'probes   {depths.min():.3f} to {depths.max():.3f} m under water; '
-           f'at least {int((depths > 0).sum(axis=1).min())} of {count} wet')
-    yield (f'cost     {steps} steps in {seconds:.3g} s: {steps / seconds:.4g} steps/s, '
-           f'{run.time[-1] / seconds:.3g} times real time')
-
-
-def _count(number, noun):
-    return f'{number} {noun}{"" if number == 1 else "s"}'
-
-
-def _joined(numbers):
-    return ' '.join(f'{number:g}' for number in numbers)
 
 
 def work(arguments):
@@ -158,18 +121,49 @@ def work(arguments):
         print(f'{PROGRAM}: {compiling}', file=sys.stderr)
     simulation = scene.simulation(integrator=arguments.integrator, rate=arguments.rate,
                                   substeps=arguments.substeps)
+    progress = Progress(sys.stderr, after=PATIENCE, every=0.1)
+    try:
+        run_and_write(arguments, scene, simulation, progress)
+    finally:
+        progress.clear()
+
+
+def run_and_write(arguments, scene, simulation, progress):
+    """Run a simulation and write what the arguments ask for; ``progress`` takes a text."""
+    thrust = push_of(scene, simulation, arguments)
+
+    def told(time):
+        progress(f'running: {time:.0f} of {arguments.duration:g} s')
+
     start = perf_counter()
-    run = simulation.run(arguments.duration, push_of(scene, simulation, arguments))
+    run = (simulation.run(arguments.duration, thrust, progress=told) if arguments.mcap is None
+           else recording.record(arguments.mcap, scene, simulation, arguments.duration, thrust,
+                                 told))
     seconds = perf_counter() - start
-    for line in summary(arguments, simulation, run, seconds):
-        print(line)
+    # With thrusters, what they have come to.
+    steady = thrust(simulation.time, simulation.state) if callable(thrust) else thrust
+    heading = simulate_text.title(arguments, simulation)
+    progress.clear()
+    for line in simulate_text.summary(arguments, simulation, run, seconds):
+        print(line, flush=True)
     for path, write in (
             (arguments.csv, run.every(arguments.every).to_csv),
-            (arguments.plot, lambda path: plot.write(path, run, simulation)),
-            (arguments.animate, lambda path: animate.write(path, run, simulation))):
+            (arguments.plot, lambda path: plot.write(path, run, heading)),
+            (arguments.animate, lambda path: animate.write(
+                path, run, simulation, heading, steady, progress))):
         if path is not None:
-            write(path)
-            print(f'wrote    {path}')
+            progress(f'writing {path}')
+            try:
+                write(path)
+            except BaseException:
+                # Half of it would be taken for the whole.
+                if path.is_file() and not path.is_symlink():
+                    path.unlink()
+                raise
+            progress.clear()
+            print(f'wrote    {path}', flush=True)
+    if arguments.mcap is not None:
+        print(f'wrote    {arguments.mcap}')
 
 
 def main(argv=None):

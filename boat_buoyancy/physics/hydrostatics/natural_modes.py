@@ -56,8 +56,9 @@ class Equilibrium:
 
     All (6, 6): ``mass`` M, added mass included, at the draft, ``wet_mass`` with every probe under
     water, ``air_mass`` with none; ``damping`` C likewise; ``stiffness`` K; ``surface_stiffness``
-    K+, every probe at the surface.  ``tilted`` 1/s^2, of a hull of panels the greatest eigenvalue of M^-1 K that its
-    waterplane has at any attitude; of others, whose K+ is that of all probes upright, 0.
+    K+, every probe at the surface.  ``tilted`` 1/s^2, of a hull of panels the greatest eigenvalue
+    of M^-1 K that its waterplane has at any attitude; of others, whose K+ is that of all probes
+    upright, 0.
     """
 
     mass: np.ndarray

@@ -37,6 +37,7 @@ from ..hydrostatics.natural_modes import equilibrium_stiffness
 from ..hydrostatics.stiffness import still_load
 from ..rotation import from_roll_pitch_yaw
 from ..sea import spectra
+from ..sea.wave_rows import stopped
 from ..sea.waves import Sea
 
 # What the probes give a boat in surge, sway and heave when nothing is asked for, in parts of
@@ -48,6 +49,8 @@ RETENTION = {'damping.linear_retention': (0.95,), 'damping.angular_retention': (
 # A single probe at the centre of mass has no spread to estimate an inertia from: a solid ball of
 # this radius in m is the least it gets.
 LEAST_BALL = 0.1
+# Part of the energy of an irregular sea that a current may stop.
+MOST_STOPPED = 0.5
 # The direction and the limits in N of a thruster that is given none.
 AHEAD, NO_LIMITS = (1.0, 0.0, 0.0), (-1e15, 1e15)
 # The parameters that each part is made of; the start is made of the hull, too. What is given to
@@ -166,9 +169,30 @@ def _waves(in_force):
         height, period = spectra.sea_state(state, in_force['gravity'])
     if not height:
         return rows
-    return spectra.jonswap_waves(
+    rows = spectra.jonswap_waves(
         height, period, direction=in_force['sea.direction'],
-        components=in_force['sea.components'], seed=in_force['sea.seed'])
+        components=in_force['sea.components'], seed=in_force['sea.seed'],
+        spreading=in_force['sea.spreading'])
+    return _running(rows, in_force)
+
+
+def _running(rows, in_force):
+    """
+    Return the rows of an irregular sea without those that cannot run against its current.
+
+    That is what a current does to a sea that runs into it: the short waves break, the long ones
+    get through.  Where less than half of the energy does, even the waves of the peak are stopped,
+    and what is left is not the sea that was asked for.
+    """
+    current = in_force['sea.current']
+    held = stopped(rows, current, in_force['sea.depth'], in_force['gravity'])
+    if held.mean() > MOST_STOPPED:
+        raise ValueError(
+            f'sea.current: {list(current)} m/s stops {held.sum()} of the {len(rows)} waves of the '
+            f'irregular sea, which have {held.mean():.0%} of its energy; expected a current that '
+            f'stops at most {MOST_STOPPED:.0%}: give a weaker one, another sea.direction or a '
+            'sea of longer waves')
+    return rows[~held]
 
 
 def assembled_start(boat, in_force):

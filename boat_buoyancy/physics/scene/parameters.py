@@ -204,8 +204,8 @@ def _table():
                   'Drag per speed squared in surge, sway, heave, roll, pitch, yaw. Higher is '
                   'slower at high speed.', at_least=0.0, at_most=1e15, lengths=(6,)),
         Parameter('added_mass', 'float_array', (0.0,) * 6, 'kg, kg·m²',
-                  'Mass of the water that moves along in surge, sway, heave, roll, pitch, yaw, all '
-                  'wet, about the centre of mass; for waves together with wave_force: '
+                  'Mass of the water that moves along in surge, sway, heave, roll, pitch, yaw, '
+                  'all wet, about the centre of mass; for waves together with wave_force: '
                   'froude_krylov. Higher moves more slowly.', at_least=0.0, at_most=1e18,
                   lengths=(6,)),
         Parameter('wave_force', 'string', 'hydrostatic', '',
@@ -213,9 +213,9 @@ def _table():
                   'of the waves: dies out with depth, pushes along the slope, and takes the boat '
                   'along with the water.', choices=WAVE_FORCES, **fixed),
         Parameter('sea.waves', 'float_array', None, 'm, s, rad, rad',
-                  'Waves, rows of four in one flat list: amplitude, period, direction they go '
-                  'to (counter-clockwise from x), phase; without it none. Higher amplitudes are '
-                  'rougher, longer periods make longer waves.'),
+                  'Waves, rows of four in one flat list: amplitude, period at a fixed point, '
+                  'direction they go to (counter-clockwise from x), phase; without it none. '
+                  'Higher amplitudes are rougher, longer periods make longer waves.'),
         Parameter('sea.sea_state', 'int', 0, '-',
                   'WMO sea state 0 to 9: an irregular JONSWAP sea instead of rows; 0 = none. '
                   'Higher is rougher and longer.', at_least=0, at_most=9),
@@ -229,18 +229,25 @@ def _table():
                   'Where a JONSWAP sea goes. Higher turns it counter-clockwise: 0 along world x, '
                   'pi/2 along y.',
                   at_least=-1e3, at_most=1e3),
+        Parameter('sea.spreading', 'float', 0.0, '-',
+                  'How closely the waves of a JONSWAP sea keep to sea.direction: the s of '
+                  'cos^2s of half the angle to it; 5 to 9 in a wind sea, 13 and more in swell, 0 '
+                  '= all go there. Higher is narrower, with longer crests.',
+                  at_least=0.0, at_most=1000.0),
         Parameter('sea.components', 'int', 16, '-',
                   'Waves that make up a JONSWAP sea. More is more natural and costs more.',
                   at_least=1, at_most=MAX_COMPONENTS),
         Parameter('sea.seed', 'int', 1, '-',
-                  'Chooses the phases of a JONSWAP sea: same seed, same sea everywhere. Another '
-                  'is another sea of the same kind.',
+                  'Chooses the phases of a JONSWAP sea, and which wave goes where about its '
+                  'direction: same seed, same sea everywhere. Another is another sea of the same '
+                  'kind.',
                   at_least=0, at_most=2 ** 63 - 1),
         Parameter('sea.depth', 'float', 0.0, 'm',
                   'Depth of the water; 0 = deep. Shallower makes long waves shorter and slower.',
                   at_least=0.0, at_most=1e5),
         Parameter('sea.current', 'float_array', (0.0, 0.0), 'm/s',
-                  'Current along world x and y. Higher drifts faster.',
+                  'Current along world x and y. Higher drifts faster, and makes waves longer that '
+                  'go with it; against it they are shorter, and the shortest cannot run.',
                   at_least=-1e3, at_most=1e3, lengths=(2,)),
         Parameter('sea.transition', 'float', 4.0, 's',
                   'Time over which a new sea replaces the old; 0 = at once. Higher is gentler.',

@@ -20,6 +20,7 @@ from . import parameters
 from .wave_sampling import sampling_warnings
 from ..checks import shown
 from ..hydrostatics.warnings import dry_thruster_warnings, parting_warnings
+from ..sea.steepness import steepness, wave_steepness
 
 # Somewhat more than 2 pi, so that 6.2832 is one.
 FULL_TURN = 6.2833
@@ -31,6 +32,8 @@ AXES = ('surge', 'sway', 'heave', 'roll', 'pitch', 'yaw')
 STUCK = 0.5
 # Height over length at which a wave breaks in deep water (Michell 1893).
 BREAKING = 1.0 / 7.0
+# The greatest significant steepness of a sea, that of short periods (DNV-RP-C205, 3.5).
+STEEPEST_SEA = 1.0 / 10.0
 PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
 # The parameters that a shape of hull has no use for.
 USELESS = {'box': ('hull.spacing', 'hull.mesh', 'hull.scale'), 'twin': ('hull.mesh', 'hull.scale'),
@@ -86,12 +89,20 @@ def without_use(in_force):
 
 def remarks(boat, sea, thrusters, given, in_force):
     """Return sentences about what was surely not meant, but for how the boat lies, in a tuple."""
-    warnings = [*_drag_twice(boat), *_stuck(boat, given)]
+    warnings = [*_drag_twice(boat), *_stuck(boat, given), *_half_in_waves(boat, sea)]
     warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
                  if name in given and given[name] != parameters.PARAMETERS[name].default]
     warnings += [f'{name} is {given[name]:g} Hz and rate is {in_force["rate"]:g} Hz: there is at '
                  f'most one message a period; raise rate, or lower {name}.'
                  for name in ('imu.rate', 'fix.rate') if given.get(name, 0.0) > in_force['rate']]
+    asked = in_force['sea.components']
+    if not sea.is_flat and not in_force['sea.waves'] and len(sea.waves) < asked:
+        left_out = asked - len(sea.waves)
+        warnings.append(
+            f'sea.current stops {left_out} of the {asked} waves of the irregular sea, '
+            f'{left_out / asked:.0%} of its energy: they are left out, and its significant height '
+            f'is {sea.significant_height:.3g} m; give a weaker current, another sea.direction or '
+            'a sea of longer waves to have them all.')
     for name, angles in (('sea.waves', sea.waves[:, 2]),
                          ('sea.direction', [in_force['sea.direction']]),
                          ('start.orientation', in_force['start.orientation'] or ())):
@@ -146,15 +157,32 @@ def _stuck(boat, given):
                f'{[0.0, 0.0, float(heave)]}.')
 
 
+def _half_in_waves(boat, sea):
+    """Yield a sentence for one half of what moves a hull in waves: they are right together."""
+    added = boat.added_mass.any()
+    if sea.ends is None or added == boat.follows_waves:
+        return
+    given, missing = (('added_mass', 'wave_force: froude_krylov') if added else
+                      ('wave_force: froude_krylov', 'added_mass'))
+    yield (f'In waves {given} alone is further from a real hull than neither, as its two errors '
+           f'no longer cancel: give {missing} and damping.linear as well '
+           '(buoyancy_hydrodynamics prints all three).')
+
+
 def sea_warnings(sea):
     """Return sentences on a `Sea` that no water could have, in a tuple."""
-    steepness = 2.0 * sea.waves[:, 0] * np.hypot(*sea.wave_vector.T) / (2.0 * np.pi)
-    if steepness.max(initial=0.0) <= BREAKING:
-        return ()
-    row = int(np.argmax(steepness))
-    return (f'The waves are steeper than water can be: row {row + 1}, {sea.waves[row].tolist()}, '
-            f'has a height of {steepness[row]:.2g} of its length, and breaks above {BREAKING:.2g};'
-            ' give it a longer period or less amplitude.',)
+    each, whole = wave_steepness(sea), steepness(sea)
+    if each.max(initial=0.0) > BREAKING:
+        row = int(np.argmax(each))
+        return (f'The waves are steeper than water can be: row {row + 1}, '
+                f'{sea.waves[row].tolist()}, has a height of {each[row]:.2g} of its length, and '
+                f'breaks above {BREAKING:.2g}; give it a longer period or less amplitude.',)
+    if np.count_nonzero(each) > 1 and whole > STEEPEST_SEA:
+        return (f'The sea is steeper than any sea is: its significant height of '
+                f'{sea.significant_height:.3g} m is {whole:.2g} of the length of its waves, and '
+                f'{STEEPEST_SEA:.2g} is the most that is seen; give it longer periods or less '
+                'height.',)
+    return ()
 
 
 def _without_effect(in_force):
@@ -173,6 +201,6 @@ def _without_effect(in_force):
     if not in_force['sea.significant_height']:
         yield 'sea.peak_period', 'it goes with sea.significant_height, which is 0'
     if not in_force['sea.sea_state'] and not in_force['sea.significant_height']:
-        for name in ('sea.direction', 'sea.components', 'sea.seed'):
+        for name in ('sea.direction', 'sea.spreading', 'sea.components', 'sea.seed'):
             yield name, ('it shapes an irregular sea, and there is none: give sea.sea_state or '
                          'sea.significant_height')

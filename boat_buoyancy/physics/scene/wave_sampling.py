@@ -20,6 +20,7 @@ import math
 import numpy as np
 
 from ..boat.hull import MAX_PANELS, PANELS_A_WAVE
+from ..forces.wave_force import PRESSURE, wave_decay
 from ..sea.waves import KX, KY, START
 
 # Error of the lift in waves, rms over the sea's waves in parts of their amplitude: what is told
@@ -42,6 +43,9 @@ def sampling_warnings(boat, sea, values):
     amplitude, hull = sea.table[START], boat.hull
     if not amplitude.any():
         return _unreached(hull)
+    if boat.follows_waves:
+        # As the hull feels them, where it is as deep as its columns are on average.
+        amplitude = amplitude * wave_decay(boat.immersion, sea.table)[:, PRESSURE].mean(axis=0)
     # Only their ratios matter, and the squares of the smallest numbers are 0.
     amplitude = amplitude / np.abs(amplitude).max()
     k = np.hypot(sea.table[KX], sea.table[KY])

@@ -55,5 +55,8 @@ def _on_current(frequency, depth, gravity, current, k):
         t = np.tanh(k * depth) if depth else 1.0
         s = np.sqrt(gravity * k * t)
         slope = 0.5 * gravity / s * (t + k * depth * (1.0 - t * t)) + current
+        before = k
         k = np.where(slope > 0.0, k - (s + current * k - frequency) / slope, np.nan)
+        if not (np.abs(k - before) > 1e-15 * k).any():
+            break
     return k

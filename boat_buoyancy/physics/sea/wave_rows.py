@@ -72,6 +72,8 @@ def wavenumbers(waves, current, depth, gravity):
 
 def stopped(waves, current, depth, gravity):
     """Return (W,) bool, which rows of waves cannot run against a current (2,) m/s."""
+    if not np.any(current):
+        return np.zeros(len(waves), bool)
     return np.isnan(wavenumbers(waves, current, depth, gravity))
 
 

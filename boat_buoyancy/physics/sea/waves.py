@@ -190,6 +190,8 @@ class Sea(Water):
     @cached_property
     def intrinsic_frequency(self) -> np.ndarray:
         """Return (W,) rad/s, as who drifts with the current sees it: w - k.U."""
+        if not self.current.any():
+            return self.angular_frequency
         along = currents_along(self.waves, self.current)
         shallow = np.tanh(self._wavenumber * self.depth) if self.depth else 1.0
         # The same as w - k.U, which loses its digits in a strong current.

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The end of a step: the forces of the place reached, and the water that the hull now takes along."""
+"""The end of a step: the forces of the place reached, and the water that now moves along."""
 
 from ..boat.state import Motion
 from ..compiled import compiled

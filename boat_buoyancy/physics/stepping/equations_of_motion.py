@@ -15,7 +15,8 @@
 """
 Newton and Euler: M a = f - C u, M = diag(m, m, m, I), about the centre of mass in body axes.
 
-With added mass M is that in force (Kirchhoff), as `forces.added_mass` has it.  Velocities and wrenches are pairs of vectors, of translation and of rotation.
+With added mass M is that in force (Kirchhoff), as `forces.added_mass` has it.  Velocities and
+wrenches are pairs of vectors, of translation and of rotation.
 """
 
 from ..compiled import compiled

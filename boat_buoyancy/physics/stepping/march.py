@@ -34,14 +34,14 @@ from ..vectors import cross, subtract, three
 
 # How a boat is stepped: on which sea, with which panels, integrator steps per period, the rate in
 # Hz of periods, and the bound that the guard holds its speed to.
-PACE = np.dtype([('sea', 'i8'), ('panels', 'i8'), ('decay', 'i8'), ('substeps', 'i8'), ('rate', 'f8'),
-                 ('bound', BOUND)])
+PACE = np.dtype([('sea', 'i8'), ('panels', 'i8'), ('decay', 'i8'), ('substeps', 'i8'),
+                 ('rate', 'f8'), ('bound', BOUND)])
 STATE_SIZE, LOAD_SIZE = 13, 34
 
 
 @compiled
-def march(boats, probes, corners, triangles, decays, seas, waves, paces, states, loads, depths, places,
-          reached, failed, thrust, by_boat, by_period, first, periods, track, depth_track):
+def march(boats, probes, corners, triangles, decays, seas, waves, paces, states, loads, depths,
+          places, reached, failed, thrust, by_boat, by_period, first, periods, track, depth_track):
     """
     Advance every boat by some periods; return how many of them have failed.
 

@@ -31,7 +31,7 @@ from ..sea.waves import Water
 
 # A row of a run is some 200 bytes: this many are two gigabytes.
 MAX_PERIODS = 10_000_000
-# Periods of a run in one call, after which Ctrl-C is heard.
+# Steps of a run in one call, after which Ctrl-C is heard.
 CHUNK = 10_000
 
 
@@ -162,14 +162,15 @@ class Simulation(Stepped):
         if self._engine.advance(wrench, 0, 0, 1):
             self._fail(wrench[0])
 
-    def run(self, duration: float,
-            thrust: ArrayLike | Callable | None = None) -> Trajectory:
+    def run(self, duration: float, thrust: ArrayLike | Callable | None = None, *,
+            progress: Callable | None = None) -> Trajectory:
         """
         Advance ``duration`` s, whole periods, and return the `Trajectory` from now on.
 
-        ``thrust`` (6,) as in `step`; (steps, 6), a row for each period; or a function
-        (time, state) -> (6,), called before each period.  SimulationError as in `step`, with what
-        was done by then.
+        Main arguments: ``thrust`` (6,) as in `step`; (steps, 6), a row for each period; or a
+        function (time, state) -> (6,), called before each period.
+        Other arguments: ``progress``, a function called with the time in s now and then.
+        SimulationError as in `step`, with what was done by then.
         """
         periods = periods_of(duration, self.rate)
         first, rows = self.steps, np.empty((periods + 1, 13))
@@ -182,7 +183,7 @@ class Simulation(Stepped):
         if thrust is not None and not given:
             wrench = thrust_rows(thrust, (6,), (periods, 6))
         by_period = int(len(wrench) > 1)
-        chunk = 1 if given or self._engine.is_plain else CHUNK
+        chunk = 1 if given or self._engine.is_plain else max(1, CHUNK // self.substeps)
         for done in range(0, periods, chunk):
             count = min(chunk, periods - done)
             if given:
@@ -192,6 +193,8 @@ class Simulation(Stepped):
                 whole = self._engine.failed[0] - first
                 self._fail(wrench[(whole - 1) * by_period],
                            Trajectory.of(boat, sea, time[:whole], rows[:whole], depths[:whole]))
+            if progress:
+                progress(self.time)
         return Trajectory.of(boat, sea, time, rows, depths)
 
     def _fail(self, row, trajectory=None):
