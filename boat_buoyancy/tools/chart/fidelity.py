@@ -34,12 +34,12 @@ PART = 'waves'
 # The hulls that have a table in ``responses``, and the scenes they are.
 HULLS = {'box': 'default', 'barge': 'barge', 'wigley': 'wigley'}
 MOTIONS = ('heave', 'roll', 'pitch')
-# What of a model of the hull is there, probes along and across; the last are compared in words.
+# Models of a hull, with probes along and across; and the one whose parts are told apart.
 MODELS = (('springs', (2, 2)), ('columns', (2, 2)), ('springs', (6, 4)), ('columns', (6, 4)),
           ('panels', (6, 4)))
-# What of `whole` a scene has: nothing, all, or all but one, for the columns last named.
-NONE, ALL, NO_WAVE_FORCE, NO_ADDED_MASS = 'none', 'all', 'no wave_force', 'no added_mass'
-HALVES = {NO_WAVE_FORCE: 'wave_force', NO_ADDED_MASS: 'added_mass'}
+PARTED = 'columns', (6, 4)
+# What of `whole` a scene has: nothing, all of it, or for some columns one parameter alone.
+NONE, ALL, ALONE = 'none', 'all', ('added_mass', 'wave_force')
 # Waves of these periods in s are compared; by length over that of the hull apart.
 PERIODS, LONG = (2.0, 12.0), 4.0
 LONG_WAVES = ' in long waves'
@@ -78,10 +78,7 @@ def parameters(hull, model, probes, parts):
         given = _on_springs(scene_from_values(given).boat, probes)
     else:
         given |= hull_values(probes, 0.0 if model == 'panels' else None)
-    if parts == NONE:
-        return given
-    return given | {name: value for name, value in whole(hull).items()
-                    if name != HALVES.get(parts)}
+    return given | {name: value for name, value in whole(hull).items() if parts in (ALL, name)}
 
 
 def _shape(hull):
@@ -130,9 +127,8 @@ def response(boat, period, heading):
 
 def cases():
     """Return (hull, model, probes, parts) of all that is compared."""
-    halved = 'columns', MODELS[-1][1]
     return [(hull, *model, parts) for hull in HULLS for model in MODELS
-            for parts in (NONE, ALL, *(HALVES if model == halved else ()))]
+            for parts in (NONE, ALL, *(ALONE if model == PARTED else ()))]
 
 
 def measured(task):

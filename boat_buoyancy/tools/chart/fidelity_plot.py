@@ -17,7 +17,7 @@
 import matplotlib
 from matplotlib.ticker import LogLocator
 
-from .fidelity import ALL, MODELS, MOTIONS, NO_ADDED_MASS, NO_WAVE_FORCE, NONE, PERIODS
+from .fidelity import ALL, ALONE, MOTIONS, NONE, PERIODS
 from .fidelity_text import COUNT, overall
 from .speed_accuracy_plots import MODELS as STYLES
 from ..plot_style import figure, logarithmic, save, SETTINGS
@@ -49,7 +49,7 @@ def draw(rows, path):
                               bare[1], whole[1])), (0, side), textcoords='offset points',
                           ha='center', va='bottom' if side > 0 else 'top', color=colour,
                           fontsize=9)
-        for parts, marker in ((NO_WAVE_FORCE, 'x'), (NO_ADDED_MASS, '+')):
+        for parts, marker in zip(ALONE, 'x+'):
             axes.plot(*_place(rows, number, 'columns', COUNT, parts), color=STYLES['columns'][0],
                       marker=marker, markersize=7.5, markeredgewidth=1.8, linestyle='none')
         logarithmic(axes, 'time of a step [µs]', '')
@@ -75,5 +75,5 @@ def _legend(made):
                                        markersize=7, markerfacecolor=face, markeredgewidth=1.6)
                for marker, face in (('o', 'white'), ('o', '#555555'), ('x', 'none'),
                                     ('+', 'none'))]
-    made.legend(handles, ['none of the three', 'all three', 'no wave force', 'no added mass'],
+    made.legend(handles, ['none of the three', 'all three', 'added mass alone', 'wave force alone'],
                 ncols=4, loc='upper center', bbox_to_anchor=(0.5, 0.96))

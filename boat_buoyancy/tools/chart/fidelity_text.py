@@ -16,11 +16,11 @@
 
 import math
 
-from .fidelity import (ALL, HULLS, LONG, LONG_WAVES, MODELS, MOTIONS, NO_ADDED_MASS,
-                       NO_WAVE_FORCE, NONE, PART, PERIODS)
+from .fidelity import (ALL, ALONE, HULLS, LONG, LONG_WAVES, MODELS, MOTIONS, NONE, PART,
+                       PERIODS)
 
-WORDS = {NONE: 'without', ALL: 'with all three', NO_WAVE_FORCE: 'without wave_force',
-         NO_ADDED_MASS: 'without added_mass'}
+WORDS = {NONE: 'none of the three', ALL: 'all three',
+         **{name: f'{name} alone' for name in ALONE}}
 # The springs and columns that are spoken of.
 COUNT = '6x4'
 
@@ -66,9 +66,9 @@ def sentences(rows):
         f'{PERIODS[0]:g} to {PERIODS[1]:g} s the error of 24 columns falls {heave} in heave, '
         f'{roll} in roll and {pitch} in pitch, for {dear / cheap:.2g} times the time of a step; '
         f'springs, whose GM is wrong, still miss roll by {_percent(springs[1])} %.',
-        'Never give only some of them: without wave_force the columns miss by '
-        f'{_listed(columns(NO_WAVE_FORCE)[0])} %, without added_mass by '
-        f'{_listed(columns(NO_ADDED_MASS)[0])} %.')
+        'Never give added_mass alone, with which the columns miss by '
+        f'{_listed(columns("added_mass")[0])} %; wave_force alone, for a hull whose added mass is '
+        f'not known, leaves {_listed(columns("wave_force")[0])} %.')
 
 
 def _table(rows):
