@@ -125,7 +125,7 @@ def test_the_sentences_are_true_of_the_shipped_table(shipped):
 
 
 def made_up():
-    """Return rows in which each part of it halves the error, and all of it costs half as much more."""
+    """Return rows in which one alone halves the error, and all three cost half as much more."""
     rows = []
     for hull, model, probes, parts in fidelity.cases():
         row = Row(fidelity.PART, hull, 'leapfrog', 30.0, model, probes[0] * probes[1], 0,

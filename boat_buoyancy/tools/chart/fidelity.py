@@ -159,7 +159,7 @@ def _row(case, boat):
 
 
 def measure(quick, progress):
-    """Return the rows of all `cases`, errors first, then costs on a machine that is quiet again."""
+    """Return the rows of all `cases`, errors first, then costs on a machine quiet again."""
     work = [(measured, (*case, quick)) for case in cases()]
     rows = [row for *_, found in results(work, progress, 'responses') for row in found]
     progress('times: models of hulls in a wave')

@@ -15,6 +15,7 @@
 """The picture of part four of the chart: what moving in waves as a hull does costs and brings."""
 
 import matplotlib
+from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from .fidelity import ALL, ALONE, MOTIONS, NONE, PERIODS
@@ -71,9 +72,9 @@ def _place(rows, number, model, grid, parts):
 def _legend(made):
     """Write the title, and under it what the markers mean."""
     made.suptitle(f'{TITLE}\n ', fontsize=10.5, fontweight='bold')
-    handles = [matplotlib.lines.Line2D([], [], color='#555555', marker=marker, linestyle='none',
-                                       markersize=7, markerfacecolor=face, markeredgewidth=1.6)
+    handles = [Line2D([], [], color='#555555', marker=marker, linestyle='none', markersize=7,
+                      markerfacecolor=face, markeredgewidth=1.6)
                for marker, face in (('o', 'white'), ('o', '#555555'), ('x', 'none'),
                                     ('+', 'none'))]
-    made.legend(handles, ['none of the three', 'all three', 'added mass alone', 'wave force alone'],
-                ncols=4, loc='upper center', bbox_to_anchor=(0.5, 0.96))
+    labels = 'none of the three', 'all three', 'added mass alone', 'wave force alone'
+    made.legend(handles, labels, ncols=4, loc='upper center', bbox_to_anchor=(0.5, 0.96))
