@@ -43,6 +43,8 @@ setup(
         'fast': ['numba'],
         # Reads hulls from mesh files.
         'mesh': ['trimesh'],
+        # The page of buoyancy_view.
+        'view': ['viser'],
         'test': ['hypothesis', 'matplotlib', 'pytest', 'pytest-xdist', 'scipy', 'trimesh'],
     },
     zip_safe=False,
@@ -57,6 +59,7 @@ setup(
             'buoyancy_report = boat_buoyancy.tools.report:main',
             'buoyancy_simulate = boat_buoyancy.tools.simulate:main',
             'buoyancy_chart = boat_buoyancy.tools.chart.main:main',
+            'buoyancy_view = boat_buoyancy.tools.view.main:main',
         ],
     },
 )

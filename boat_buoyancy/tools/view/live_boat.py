@@ -61,14 +61,14 @@ class LiveBoat:
     A scene afloat.
 
     Main arguments: ``source``, the path of a parameter file.
-    Public: ``name`` of the scene; ``scene`` in force; ``session`` that steps it; ``history``;
-    ``paused``; ``pace``, simulated over wall time.
+    Public: ``name`` of the scene; ``begun``, how many scenes were; ``scene`` in force; ``session``
+    that steps it; ``history``; ``paused``; ``pace``, simulated over wall time.
     """
 
     def __init__(self, source):
         """Stand at the start; ValueError says what is wrong with the file."""
         self.paused, self.pace, self.history = False, 1.0, History()
-        self.session = None
+        self.session, self.begun = None, 0
         self.take(self.opened(source))
 
     # Changes: worked out at leisure, then taken between two steps.
@@ -113,6 +113,7 @@ class LiveBoat:
         self.scene = change.scene
         if change.at_start is not None:
             self.name, self._at_start, self.history = change.name, change.at_start, History()
+            self.begun += 1
         self.session.thrust.timeout = PUSH_LASTS
         self.session.thrusters.set_timeout(PUSH_LASTS)
 

@@ -43,13 +43,15 @@ class Loop:
     """
     A thread that steps a boat when its steps are due, and does in between what it is asked for.
 
-    Main arguments: ``boat`` a `LiveBoat`, which nobody else touches from `start` on.
+    Main arguments: ``boat`` a `LiveBoat`, which nobody else changes from `start` on; ``scenes``
+    {name: path}, what it can go over to.
     Public: ``snapshot``, the latest, a new one `PICTURES` times a second; ``speed``, the `Speed`
     of the last second; ``ended``, a `Future` that is done when the loop is, with its exception.
     """
 
-    def __init__(self, boat):
+    def __init__(self, boat, scenes=()):
         """Take a first picture."""
+        self.scenes = dict(scenes)
         self.boat, self.snapshot, self.speed = boat, boat.snapshot(), Speed()
         self.ended = Future()
         self._asked, self._ending, self._next_picture = Queue(), False, 0.0
@@ -69,6 +71,66 @@ class Loop:
         answer = Future()
         self._asked.put((answer, function, arguments))
         return answer
+
+    # What a page shows: what is replaced whole and never changed.
+
+    name = property(lambda self: self.boat.name)
+    scene = property(lambda self: self.boat.scene)
+    begun = property(lambda self: self.boat.begun)
+    history = property(lambda self: self.boat.history)
+    paused = property(lambda self: self.boat.paused)
+    fault = property(lambda self: self.boat.session.fault)
+
+    @property
+    def snapshots(self):
+        """Return {name: `Snapshot`} of all that floats."""
+        return {'boat': self.snapshot}
+
+    def text(self):
+        """Return the scene as tuned as the text of a parameter file."""
+        return self.boat.text()
+
+    # What a page asks for; each waits until it is done, and raises what is wrong.
+
+    def set(self, values):
+        """Change parameters {name: value}; ValueError with the sentence of what is wrong."""
+        change = self.boat.proposed(values)
+        self.ask(self.boat.take, change).result()
+
+    def open(self, source):
+        """Go over to another parameter file."""
+        change = self.boat.opened(source)
+        self.ask(self.boat.take, change).result()
+
+    def push(self, ahead, turn):
+        """Push as `LiveBoat.push`."""
+        self.ask(self.boat.push, ahead, turn).result()
+
+    def lift(self, height):
+        """Lift as `LiveBoat.lift`."""
+        self.ask(self.boat.lift, height).result()
+
+    def heel(self, angle):
+        """Heel as `LiveBoat.heel`."""
+        self.ask(self.boat.heel, angle).result()
+
+    def reset(self):
+        """Go back to the start."""
+        self.ask(self.boat.reset).result()
+
+    def step(self):
+        """Advance one period while paused; ValueError while running."""
+        if not self.boat.paused:
+            raise ValueError('one step: expected a paused boat; pause it first')
+        self.ask(self.boat.step).result()
+
+    def pause(self, paused):
+        """Stop or go on."""
+        self.ask(setattr, self.boat, 'paused', paused).result()
+
+    def set_pace(self, pace):
+        """Run at ``pace`` times real time."""
+        self.ask(setattr, self.boat, 'pace', pace).result()
 
     def _run(self):
         try:

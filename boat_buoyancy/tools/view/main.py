@@ -1,0 +1,96 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Tune a boat while it floats, in a browser: ``buoyancy_view SCENE [--port N] [--no-open]``.
+
+The boat on its water, knobs for its parameters beside it, and what they do.
+"""
+
+from pathlib import Path
+import socket
+import sys
+import webbrowser
+
+from .live_boat import LiveBoat
+from .loop import Loop, PICTURES
+from .. import command_line
+from ..chart.stability_map import shipped_scenes
+from ...ros.ending import told_to_end
+
+PROGRAM, HOST, PORT = 'buoyancy_view', '127.0.0.1', 8080
+
+
+def parser():
+    """Return the parser of the program's arguments."""
+    arguments = command_line.scene_parser(
+        PROGRAM, 'Tune a boat while it floats: a page with the boat on its water, its knobs beside '
+        'it. Ctrl-C ends it.')
+    option = arguments.add_argument
+    option('--port', metavar='N', type=int, default=PORT,
+           help=f'port of the page, 0 = any that is free (default {PORT})')
+    option('--host', metavar='ADDRESS', default=HOST,
+           help='address to listen on; the default is this machine only, and whoever reaches '
+           'another one can push and tune the boat')
+    option('--no-open', action='store_true', help='do not open a browser')
+    return arguments
+
+
+def scenes_beside(path):
+    """Return {name: path} of the parameter files that come with the package, and of one."""
+    return {**{shipped.stem: shipped for shipped in shipped_scenes()}, Path(path).stem: path}
+
+
+def check_port(host, port):
+    """Raise ValueError or OSError in one line where a page cannot listen."""
+    if not 0 <= port <= 65535:
+        raise ValueError(f'--port: expected a number of 0 to 65535, got {port}')
+    with socket.socket() as trial:
+        trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            trial.bind((host, port))
+        except OSError as error:
+            raise OSError(f'cannot listen on port {port} of {host}: {error.strerror}; give '
+                          'another --port, or --port 0 for any that is free') from None
+
+
+def work(arguments):
+    """Show the page until a signal comes; ValueError, OSError for what is wrong."""
+    boat = LiveBoat(arguments.scene)
+    check_port(arguments.host, arguments.port)
+    command_line.require_extra('view', 'the page', 'viser')
+    from .page import Page
+    from .stage import served
+    loop = Loop(boat, scenes_beside(arguments.scene))
+    with told_to_end() as told, served(arguments.host, arguments.port) as server:
+        loop.start()
+        page = Page(server, loop)
+        address = f'http://{arguments.host}:{server.get_port()}'
+        print(f'{PROGRAM}: {boat.name} floats at {address} until Ctrl-C', flush=True)
+        if not arguments.no_open:
+            webbrowser.open(address)
+        while not told.wait(1.0 / PICTURES) and not loop.ended.done():
+            page.show()
+        loop.stop()
+    loop.ended.result()
+
+
+def main(argv=None):
+    """Run the program and return its exit code."""
+    arguments = parser().parse_args(argv)
+    return command_line.run(PROGRAM, lambda: work(arguments))
+
+
+if __name__ == '__main__':
+    sys.exit(main())
