@@ -67,6 +67,8 @@ class Browser:
         self._session = f'{address}/session'
         opened = self._ask('POST', '', {'capabilities': {'alwaysMatch': capabilities}})
         self._session += '/' + opened['sessionId']
+        # An element may be about to come.
+        self._ask('POST', '/timeouts', {'implicit': 20_000})
 
     def _ask(self, method, path, body=None):
         request = Request(self._session + path, method=method, headers={
@@ -107,7 +109,7 @@ class Browser:
         return [entry['message'] for entry in self._ask('POST', '/se/log', {'type': 'browser'})
                 if entry['level'] == 'SEVERE']
 
-    def wait_for(self, sought, seconds=10.0):
+    def wait_for(self, sought, seconds=20.0):
         """Return the text shown once it has what is sought; AssertionError when it does not."""
         end = time.monotonic() + seconds
         while sought not in (text := self.text()):

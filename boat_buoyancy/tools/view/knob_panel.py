@@ -22,7 +22,7 @@ from ...physics.scene.parameters import PARAMETERS
 from ...physics.stepping.integrators import INTEGRATORS
 
 # A slider that was moved less than so many s ago is in somebody's hand: it is left alone.
-IN_HAND = 1.0
+IN_HAND = 3.0
 ENDS = ('bow', 'stern', 'port', 'starboard', 'level')
 
 
@@ -30,8 +30,9 @@ class KnobPanel:
     """
     Tabs of knobs.
 
-    Main arguments: ``gui`` of viser; ``set_values``, called with (key, {name: value}) when
-    something is to be changed; the newest of a key counts.
+    Main arguments: ``gui`` of viser; ``set_values``, called with (key, function) when something
+    is to be changed: the function of a `Scene` gives {name: value} once it is its turn, and of
+    those with the same key, but None, the newest counts.
     """
 
     def __init__(self, gui, set_values):
@@ -64,10 +65,7 @@ class KnobPanel:
             if time.time() - slider.update_timestamp < IN_HAND:
                 continue
             value = type(slider.value)(knob.value(scene))
-            if value > slider.max:
-                slider.max = value
-            if value < slider.min:
-                slider.min = value
+            slider.min, slider.max = min(slider.min, value), max(slider.max, value)
             slider.value = value
         self._integrator.value = scene.integrator
         self._rate.value = scene.rate
@@ -80,8 +78,10 @@ class KnobPanel:
 
         @slider.on_update
         def _(event):
-            if event.client_id is not None:
-                self._set((knob.name, knob.index), knob.request(self._scene, slider.value))
+            value = slider.value
+            # What lies outside is a number of which the first digits are written.
+            if event.client_id is not None and slider.min <= value <= slider.max:
+                self._set(knob, lambda scene: knob.request(scene, value))
 
     def _add_trim(self):
         trim = self._gui.add_button_group('let down', ENDS, hint=(
@@ -90,7 +90,8 @@ class KnobPanel:
 
         @trim.on_click
         def _(_):
-            self._set('trim', trimmed(self._scene, trim.value))
+            end = trim.value
+            self._set(None, lambda scene: trimmed(scene, end))
 
     def _add_step(self):
         scene, gui = self._scene, self._gui
@@ -105,7 +106,8 @@ class KnobPanel:
         for name, field in (('integrator', self._integrator), ('rate', self._rate),
                             ('substeps', self._substeps)):
             field.on_update(lambda event, name=name, field=field: (
-                event.client_id is not None and self._set(name, {name: field.value})))
+                event.client_id is not None and self._set(
+                    name, lambda _, value=field.value: {name: value})))
 
     def _add_any(self):
         gui, scene = self._gui, self._scene
@@ -122,7 +124,8 @@ class KnobPanel:
 
         @button.on_click
         def _(_):
-            self._set(name.value, lambda: read_value(name.value, value.value))
+            given = name.value, value.value
+            self._set(None, lambda _: read_value(*given))
 
         name.on_update(tell)
         tell()

@@ -15,7 +15,7 @@
 """What the colours of the page mean."""
 
 from . import drawing
-from .shapes import DRY, WET
+from .shapes import WETNESS
 
 
 def legend():
@@ -25,10 +25,11 @@ def legend():
         ('●', drawing.LIFT_MIDDLE, 'centre of buoyancy'),
         ('↑', drawing.LIFT, 'lift of each probe'),
         ('➜', drawing.PUSH, 'thrust'),
-        ('│', (224, 49, 49), 'x, ahead; y (green) to port; z (blue) up')))
+        ('│', (224, 49, 49), 'ahead (x), green to port (y), blue up (z)')))
+    colors = ', '.join(map(_css, WETNESS))
     return (f'<div style="padding: 0 0.75em 0.5em; font-size: 0.8em; line-height: 1.5">'
             f'<div>probes: dry <span style="display: inline-block; width: 6em; height: 0.8em; '
-            f'background: linear-gradient(to right, {_css(DRY)}, {_css(WET)})"></span> '
+            f'background: linear-gradient(to right, {colors})"></span> '
             f'all under water</div>{rows}</div>')
 
 

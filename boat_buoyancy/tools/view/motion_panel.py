@@ -44,7 +44,7 @@ class MotionPanel:
             scenes.on_update(lambda event: event.client_id is not None and give(
                 'scene', boat.open, boat.scenes[scenes.value]))
         run = gui.add_button_group('time', ('pause', 'go', 'step', 'reset'))
-        run.on_click(lambda _: give('time', self._run, run.value))
+        run.on_click(lambda _: give(None, self._run, run.value))
         pace = gui.add_dropdown('pace', tuple(PACES), initial_value='real time')
         pace.on_update(lambda event: event.client_id is not None and give(
             'pace', boat.set_pace, PACES[pace.value]))
@@ -56,12 +56,12 @@ class MotionPanel:
             'push, of the weight', 0.01, STRONGEST, 0.01, STRENGTH,
             hint='Thrust over the weight of the boat; what turns it acts at half its length.')
         try_out = gui.add_button_group('try', ('lift and drop', 'heel and let go'))
-        try_out.on_click(lambda _: give('try', self._try_out, try_out.value))
+        try_out.on_click(lambda _: give(None, self._try_out, try_out.value))
         for name, (_, _, key) in PUSHES.items():
             command = gui.add_command(f'Push {name}', hotkey=key)
             command.on_trigger(lambda _, name=name: give('push', self._push, name))
         pausing = gui.add_command('Pause or go on', hotkey='space')
-        pausing.on_trigger(lambda _: give('time', lambda: boat.pause(not boat.paused)))
+        pausing.on_trigger(lambda _: give(None, lambda: boat.pause(not boat.paused)))
 
     def _run(self, what):
         if what == 'step':

@@ -14,7 +14,6 @@
 
 """What the boat does on a page: numbers at rest, warnings, the last minute, the pace."""
 
-from .history import SPAN
 from .legend import legend
 from .readout import numbers_text, warnings_text
 
@@ -33,9 +32,10 @@ class NumberPanel:
             self._numbers = gui.add_markdown('')
             columns = history.columns()
             self._plots = [
-                (_plot(gui, columns, (1,), ('heave (m)',)), (1,)),
-                (_plot(gui, columns, (2, 3), ('roll (deg)', 'pitch (deg)')), (2, 3)),
-                (_plot(gui, columns, (4,), ('speed (m/s)',)), (4,))]
+                (_plot(gui, columns, (1,), ('heave (m)',), (-0.1, 0.1)), (1,)),
+                (_plot(gui, columns, (2, 3), ('roll (deg)', 'pitch (deg)'), (-2.0, 2.0)),
+                 (2, 3)),
+                (_plot(gui, columns, (4,), ('speed (m/s)',), (0.0, 0.2)), (4,))]
         with panel.add_tab('Warnings'):
             self._warnings = gui.add_markdown('')
         with panel.add_tab('Legend'):
@@ -60,10 +60,16 @@ class NumberPanel:
                                f'times real time possible{self._count}')
 
 
-def _plot(gui, columns, rows, labels):
+def _plot(gui, columns, rows, labels, shown):
+    """Return a plot of some columns of a `History`, in which two heights are always shown."""
     series = tuple({'label': label, 'stroke': color, 'width': 1.5}
                    for label, color in zip(labels, (BLUE, RED)))
     return gui.add_uplot(
         tuple(columns[row] for row in (0, *rows)), ({'label': 's'}, *series),
-        scales={'x': {'time': False, 'auto': False, 'range': (-SPAN, 0.0)}},
+        scales={'x': {'time': False}, 'y': {'range': _at_least(*shown)}},
         axes=({'size': 32}, {'size': 44}), height=HEIGHT, padding=(4, 8, 0, 0))
+
+
+def _at_least(low, high):
+    """Return a range in uPlot's words that takes in what is drawn and two numbers."""
+    return {'min': {'pad': 0.1, 'soft': low, 'mode': 1}, 'max': {'pad': 0.1, 'soft': high, 'mode': 1}}

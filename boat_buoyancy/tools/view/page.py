@@ -82,8 +82,8 @@ class Page:
         self._pictures += 1
 
     def _set(self, key, values):
-        """Have parameters changed: {name: value}, or a function that gives it."""
-        self._give(key, lambda: self._boat.set(values() if callable(values) else values))
+        """Have parameters changed to what a function gives of the scene by then."""
+        self._give(key, lambda: self._boat.set(values(self._boat.scene)))
 
     def _give(self, key, function, *arguments):
         def work():

@@ -26,7 +26,8 @@ CELLS, SPREAD, LINED = 40, 7.0, 5
 # Length of the arrow of a probe that carries its share of the weight, over the boat's length, and
 # of a push as large as the weight.
 LIFT_ARROW, PUSH_ARROW = 0.35, 1.5
-DRY, WET = np.array([242, 140, 26]), np.array([26, 77, 217])
+# Of a probe that is dry, half and all under water: told apart by colour-blind eyes, too.
+WETNESS = np.array([(253, 231, 37), (33, 160, 130), (40, 30, 140)])
 # A box: its corners by the signs of x, y, z, and its faces, outwards.
 SIGNS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 FACES = np.array([(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7),
@@ -115,5 +116,6 @@ def push_arrows(snapshot, length):
 
 
 def probe_colors(wetness):
-    """Return (n, 3) of 0 to 255: dry, wet and what is between."""
-    return (DRY + np.multiply.outer(wetness, WET - DRY)).astype(np.uint8)
+    """Return (n, 3) of 0 to 255 for wetness 0 to 1, between those of `WETNESS`."""
+    return np.stack([np.interp(wetness, (0.0, 0.5, 1.0), channel) for channel in WETNESS.T],
+                    axis=-1).astype(np.uint8)

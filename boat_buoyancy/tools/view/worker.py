@@ -21,18 +21,19 @@ class Worker:
     """
     A thread that does what it is given in the order it came.
 
-    What is given under the key of something that still waits replaces it: a slider that is
-    dragged asks for more values than can be worked out.
+    What is given under the key of something that still waits replaces it, but for the key None: a
+    slider that is dragged asks for more values than can be worked out.
     """
 
     def __init__(self, said):
-        """Report errors to ``said``, called with an exception, or None after what went well."""
+        """Report errors to ``said``, called with an exception."""
         self._said, self._waiting, self._changed = said, {}, Condition()
         Thread(target=self._run, name='worker', daemon=True).start()
 
     def give(self, key, function, *arguments):
         """Let a function be called soon."""
         with self._changed:
+            key = object() if key is None else key
             self._waiting.pop(key, None)
             self._waiting[key] = function, arguments
             self._changed.notify()
