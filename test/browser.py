@@ -84,7 +84,7 @@ class Browser:
         """Close the window and end the browser."""
         self._ask('DELETE', '')
 
-    def open(self, address):
+    def visit(self, address):
         """Go to a page."""
         self._ask('POST', '/url', {'url': address})
 

@@ -17,10 +17,14 @@
 import argparse
 from importlib import import_module
 import os
+from pathlib import Path
 import sys
 import warnings
 
 from ..physics.stepping.simulation import SimulationError
+
+# What Ubuntu has no package of.
+PYPI_ONLY = frozenset({'viser'})
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -44,6 +48,13 @@ def scene_parser(program, description):
     return parser
 
 
+def shipped_scenes():
+    """Return the parameter files that come with the package, from its source or as installed."""
+    source = Path(__file__).parents[2] / 'config'
+    installed = Path(sys.prefix) / 'share' / 'boat_buoyancy' / 'config'
+    return sorted((source if source.is_dir() else installed).glob('*.yaml'))
+
+
 def require_extra(extra, what, *modules):
     """
     Raise ValueError with what to install where a module of an extra cannot be imported.
@@ -58,9 +69,11 @@ def require_extra(extra, what, *modules):
             missing[module] = error
     if missing:
         packages = ' '.join(f'python3-{module}' for module in missing)
+        ubuntu = '' if PYPI_ONLY.intersection(missing) else (
+            f', or on Ubuntu apt install {packages}')
         raise ValueError(
             f'{what} needs {" and ".join(missing)} ({"; ".join(map(str, missing.values()))}): '
-            f'pip install "boat_buoyancy[{extra}]", or on Ubuntu apt install {packages}')
+            f'pip install "boat_buoyancy[{extra}]"{ubuntu}')
 
 
 def check_picture(option, path, endings):

@@ -92,12 +92,12 @@ class Loop:
 
     # What a page asks for; each waits until it is done, and raises what is wrong.
 
-    def set(self, values):
+    def tune(self, values):
         """Change parameters {name: value}; ValueError with the sentence of what is wrong."""
         change = self.boat.proposed(values)
         self.ask(self.boat.take, change).result()
 
-    def open(self, source):
+    def switch(self, source):
         """Go over to another parameter file."""
         change = self.boat.opened(source)
         self.ask(self.boat.take, change).result()

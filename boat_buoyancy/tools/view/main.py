@@ -26,7 +26,6 @@ import webbrowser
 from .live_boat import LiveBoat
 from .loop import Loop, PICTURES
 from .. import command_line
-from ..chart.stability_map import shipped_scenes
 from ...ros.ending import told_to_end
 
 PROGRAM, HOST, PORT = 'buoyancy_view', '127.0.0.1', 8080
@@ -35,8 +34,8 @@ PROGRAM, HOST, PORT = 'buoyancy_view', '127.0.0.1', 8080
 def parser():
     """Return the parser of the program's arguments."""
     arguments = command_line.scene_parser(
-        PROGRAM, 'Tune a boat while it floats: a page with the boat on its water, its knobs beside '
-        'it. Ctrl-C ends it.')
+        PROGRAM, 'Tune a boat while it floats: a page with the boat on its water and its knobs '
+        'beside it. Ctrl-C ends it.')
     option = arguments.add_argument
     option('--port', metavar='N', type=int, default=PORT,
            help=f'port of the page, 0 = any that is free (default {PORT})')
@@ -49,7 +48,7 @@ def parser():
 
 def scenes_beside(path):
     """Return {name: path} of the parameter files that come with the package, and of one."""
-    return {**{shipped.stem: shipped for shipped in shipped_scenes()}, Path(path).stem: path}
+    return {scene.stem: scene for scene in (*command_line.shipped_scenes(), Path(path))}
 
 
 def check_port(host, port):

@@ -42,7 +42,7 @@ class MotionPanel:
                 'The five steps v0 to v4 add one part of the model each. A sea that you chose '
                 'goes along.'))
             scenes.on_update(lambda event: event.client_id is not None and give(
-                'scene', boat.open, boat.scenes[scenes.value]))
+                'scene', boat.switch, boat.scenes[scenes.value]))
         run = gui.add_button_group('time', ('pause', 'go', 'step', 'reset'))
         run.on_click(lambda _: give(None, self._run, run.value))
         pace = gui.add_dropdown('pace', tuple(PACES), initial_value='real time')

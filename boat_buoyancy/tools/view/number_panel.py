@@ -56,8 +56,8 @@ class NumberPanel:
         for plot, rows in self._plots:
             plot.data = tuple(columns[row] for row in (0, *rows))
         how = 'paused' if paused else f'{speed.held:.2f} times real time'
-        self._speed.content = (f'{how}; a step costs {1e6 * speed.cost:.0f} µs, {speed.possible:.0f} '
-                               f'times real time possible{self._count}')
+        self._speed.content = (f'{how}; a step costs {1e6 * speed.cost:.0f} µs, '
+                               f'{speed.possible:.0f} times real time possible{self._count}')
 
 
 def _plot(gui, columns, rows, labels, shown):
@@ -72,4 +72,5 @@ def _plot(gui, columns, rows, labels, shown):
 
 def _at_least(low, high):
     """Return a range in uPlot's words that takes in what is drawn and two numbers."""
-    return {'min': {'pad': 0.1, 'soft': low, 'mode': 1}, 'max': {'pad': 0.1, 'soft': high, 'mode': 1}}
+    return {end: {'pad': 0.1, 'soft': soft, 'mode': 1}
+            for end, soft in (('min', low), ('max', high))}

@@ -83,7 +83,7 @@ class Page:
 
     def _set(self, key, values):
         """Have parameters changed to what a function gives of the scene by then."""
-        self._give(key, lambda: self._boat.set(values(self._boat.scene)))
+        self._give(key, lambda: self._boat.tune(values(self._boat.scene)))
 
     def _give(self, key, function, *arguments):
         def work():
