@@ -29,7 +29,7 @@ from boat_buoyancy.tools.view.knob_panel import read_value
 from boat_buoyancy.tools.view.knobs import knobs, trimmed
 from boat_buoyancy.tools.view.live_boat import LiveBoat
 from boat_buoyancy.tools.view.readout import figures, stable_step
-from boat_buoyancy.tools.view.shapes import (CELLS, hull_mesh, LINED, lift_arrows, probe_colors,
+from boat_buoyancy.tools.view.shapes import (CELLS, hull_mesh, lift_arrows, LINED, probe_colors,
                                              WaterPatch)
 from boat_buoyancy.tools.view.worker import Worker
 import numpy as np

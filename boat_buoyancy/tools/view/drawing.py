@@ -96,17 +96,19 @@ class Drawing:
             middle, self._water.vertices, self._grid.points = self._patch.around(snapshot)
             self._water.position = middle
             self._grid.position = middle + [0.0, 0.0, ABOVE * self._length]
-        if not 0.0 <= snapshot.stamp - self._tracked < TRACK_PERIOD:
-            self._follow(snapshot)
+        self._follow(snapshot)
 
     def _follow(self, snapshot):
-        """Go on with the track, at the height of the mean water, from anew after a jump."""
-        place = np.append(snapshot.position[:2], 2.0 * ABOVE * self._length)
+        """Go on with the track, which lies on the water; after a jump begin anew."""
+        place = snapshot.position[:2]
         if self._track and np.linalg.norm(place - self._track[-1]) > FAR * self._length:
             self._track.clear()
-        self._track.append(place)
-        self._tracked = snapshot.stamp
-        points = np.array(self._track)
+        if not self._track or not 0.0 <= snapshot.stamp - self._tracked < TRACK_PERIOD:
+            self._track.append(place)
+            self._tracked = snapshot.stamp
+        x, y = np.array([*self._track, place]).T
+        height = snapshot.water.elevation(x, y, snapshot.time) + 2.0 * ABOVE * self._length
+        points = np.stack([x, y, height], axis=-1)
         self._line.points = np.stack([points[:-1], points[1:]], axis=1)
 
     def is_of(self, boat, water):
