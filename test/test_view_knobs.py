@@ -186,6 +186,8 @@ def test_what_is_wrong_is_one_line(capsys, tmp_path):
     scene = str(CONFIG / 'default.yaml')
     assert 'expected a number of 0 to 65535, got 70000' in refused(
         capsys, scene, '--port', '70000')
+    for words in ((), (scene, '--ros')):
+        assert 'expected either a SCENE, as config/waves.yaml, or --ros' in refused(capsys, *words)
     assert 'cannot be read' in refused(capsys, str(tmp_path / 'none.yaml'))
     with socket.socket() as taken:
         taken.bind(('127.0.0.1', 0))

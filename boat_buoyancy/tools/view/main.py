@@ -15,9 +15,11 @@
 """
 Tune a boat while it floats, in a browser: ``buoyancy_view SCENE [--port N] [--no-open]``.
 
-The boat on its water, knobs for its parameters beside it, and what they do.
+The boat on its water, knobs for its parameters beside it, and what they do.  With ``--ros`` those
+that running nodes float.
 """
 
+import argparse
 from pathlib import Path
 import socket
 import sys
@@ -26,6 +28,7 @@ import webbrowser
 from .live_boat import LiveBoat
 from .loop import Loop, PICTURES
 from .. import command_line
+from ...physics.scene.parameters import NODE_NAME
 from ...ros.ending import told_to_end
 
 PROGRAM, HOST, PORT = 'buoyancy_view', '127.0.0.1', 8080
@@ -33,16 +36,21 @@ PROGRAM, HOST, PORT = 'buoyancy_view', '127.0.0.1', 8080
 
 def parser():
     """Return the parser of the program's arguments."""
-    arguments = command_line.scene_parser(
-        PROGRAM, 'Tune a boat while it floats: a page with the boat on its water and its knobs '
-        'beside it. Ctrl-C ends it.')
+    arguments = command_line.OneLineParser(
+        prog=PROGRAM, description='Tune a boat while it floats: a page with the boat on its water '
+        'and its knobs beside it. Ctrl-C ends it.')
     option = arguments.add_argument
+    option('scene', metavar='SCENE', nargs='?',
+           help='parameter file of the boat and its sea, as config/barge.yaml')
     option('--port', metavar='N', type=int, default=PORT,
            help=f'port of the page, 0 = any that is free (default {PORT})')
     option('--host', metavar='ADDRESS', default=HOST,
            help='address to listen on; the default is this machine only, and whoever reaches '
            'another one can push and tune the boat')
     option('--no-open', action='store_true', help='do not open a browser')
+    option('--ros', nargs=argparse.REMAINDER, metavar='...',
+           help='show the boats of running nodes in place of a SCENE; what follows is for ROS, as '
+           '-r __ns:=/red for the one to look at first')
     return arguments
 
 
@@ -66,23 +74,52 @@ def check_port(host, port):
 
 def work(arguments):
     """Show the page until a signal comes; ValueError, OSError for what is wrong."""
-    boat = LiveBoat(arguments.scene)
+    if (arguments.scene is None) == (arguments.ros is None):
+        raise ValueError('expected either a SCENE, as config/waves.yaml, or --ros for running '
+                         'nodes')
+    if arguments.scene is not None:
+        boat = LiveBoat(arguments.scene)
     check_port(arguments.host, arguments.port)
     command_line.require_extra('view', 'the page', 'viser')
+    with told_to_end() as told:
+        if arguments.scene is not None:
+            floating = Loop(boat, scenes_beside(arguments.scene))
+            floating.start()
+        else:
+            floating = found(arguments.ros, told)
+        try:
+            if not told.is_set():
+                show(floating, arguments, told)
+        finally:
+            floating.stop()
+    if floating.ended.done():
+        floating.ended.result()
+
+
+def found(arguments, told):
+    """Return the `Remote` once a node is there, or the program is told to end."""
+    command_line.require_extra('ros', '--ros', 'rclpy')
+    from .remote import Remote
+    remote = Remote(arguments)
+    where = '' if remote.wanted == '/' else f' in {remote.wanted}'
+    print(f'{PROGRAM}: looking for a node named {NODE_NAME}{where}', flush=True)
+    while not told.is_set() and not remote.wait(0.2):
+        pass
+    return remote
+
+
+def show(floating, arguments, told):
+    """Show what floats, a `Loop` or the like, until told to end."""
     from .page import Page
     from .stage import served
-    loop = Loop(boat, scenes_beside(arguments.scene))
-    with told_to_end() as told, served(arguments.host, arguments.port) as server:
-        loop.start()
-        page = Page(server, loop)
+    with served(arguments.host, arguments.port) as server:
+        page = Page(server, floating)
         address = f'http://{arguments.host}:{server.get_port()}'
-        print(f'{PROGRAM}: {boat.name} floats at {address} until Ctrl-C', flush=True)
+        print(f'{PROGRAM}: {floating.name} floats at {address} until Ctrl-C', flush=True)
         if not arguments.no_open:
             webbrowser.open(address)
-        while not told.wait(1.0 / PICTURES) and not loop.ended.done():
+        while not told.wait(1.0 / PICTURES) and not floating.ended.done():
             page.show()
-        loop.stop()
-    loop.ended.result()
 
 
 def main(argv=None):

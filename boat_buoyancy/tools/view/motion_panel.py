@@ -37,8 +37,9 @@ class MotionPanel:
     def __init__(self, gui, boat, give, length):
         """Add the buttons."""
         self._boat, self._length = boat, length
+        self._scenes = None
         if boat.scenes:
-            scenes = gui.add_dropdown('scene', tuple(boat.scenes), initial_value=boat.name, hint=(
+            self._scenes = scenes = gui.add_dropdown('scene', tuple(boat.scenes), initial_value=boat.name, hint=(
                 'The five steps v0 to v4 add one part of the model each. A sea that you chose '
                 'goes along.'))
             scenes.on_update(lambda event: event.client_id is not None and give(
@@ -62,6 +63,11 @@ class MotionPanel:
             command.on_trigger(lambda _, name=name: give('push', self._push, name))
         pausing = gui.add_command('Pause or go on', hotkey='space')
         pausing.on_trigger(lambda _: give(None, lambda: boat.pause(not boat.paused)))
+
+    def show(self):
+        """Offer what there is to go over to by now."""
+        if self._scenes is not None and self._scenes.options != tuple(self._boat.scenes):
+            self._scenes.options = tuple(self._boat.scenes)
 
     def _run(self, what):
         if what == 'step':

@@ -56,8 +56,10 @@ class NumberPanel:
         for plot, rows in self._plots:
             plot.data = tuple(columns[row] for row in (0, *rows))
         how = 'paused' if paused else f'{speed.held:.2f} times real time'
-        self._speed.content = (f'{how}; a step costs {1e6 * speed.cost:.0f} µs, '
-                               f'{speed.possible:.0f} times real time possible{self._count}')
+        # A node keeps the cost of its steps to itself.
+        cost = (f'; a step costs {1e6 * speed.cost:.0f} µs, {speed.possible:.0f} times real time '
+                'possible') if speed.cost else ''
+        self._speed.content = f'{how}{cost}{self._count}'
 
 
 def _plot(gui, columns, rows, labels, shown):

@@ -47,7 +47,7 @@ class Page:
         self._worker = Worker(self._refuse)
         self._stage = Stage(server, boat.scene.boat)
         self._message = gui.add_html('', visible=False)
-        MotionPanel(gui, boat, self._give, lambda: length_of(boat.scene.boat))
+        self._motion = MotionPanel(gui, boat, self._give, lambda: length_of(boat.scene.boat))
         camera = gui.add_dropdown('camera', CAMERAS, initial_value=CAMERAS[0])
         camera.on_update(lambda event: event.client_id is not None and self._stage.look(
             camera.value, boat.scene.boat))
@@ -56,7 +56,7 @@ class Page:
         save.on_click(self._save)
         self._knobs = KnobPanel(gui, self._set)
         self._numbers = NumberPanel(gui, boat.history)
-        self._scene = self._begun = None
+        self._scene = self._begun = self._fault = None
         self._pictures = 0
         self.show()
 
@@ -77,8 +77,10 @@ class Page:
         if self._pictures % SLOWLY == 0:
             self._knobs.show(scene)
             self._numbers.show(boat.history, boat.speed, boat.paused)
-            if boat.fault:
-                self._say(f'stopped: {boat.fault}')
+            self._motion.show()
+            if boat.fault != self._fault:
+                self._fault = boat.fault
+                self._say(f'stopped: {boat.fault}' if boat.fault else '')
         self._pictures += 1
 
     def _set(self, key, values):
