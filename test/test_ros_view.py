@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What buoyancy_view --ros shows of running nodes is what they publish, and what it asks is done."""
+"""What buoyancy_view --ros shows of running nodes is what they publish; what it asks is done."""
 
 import signal
 import time

@@ -39,9 +39,10 @@ class MotionPanel:
         self._boat, self._length = boat, length
         self._scenes = None
         if boat.scenes:
-            self._scenes = scenes = gui.add_dropdown('scene', tuple(boat.scenes), initial_value=boat.name, hint=(
-                'The five steps v0 to v4 add one part of the model each. A sea that you chose '
-                'goes along.'))
+            self._scenes = scenes = gui.add_dropdown(
+                'scene', tuple(boat.scenes), initial_value=boat.name, hint=(
+                    'The five steps v0 to v4 add one part of the model each. A sea that you '
+                    'chose goes along.'))
             scenes.on_update(lambda event: event.client_id is not None and give(
                 'scene', boat.switch, boat.scenes[scenes.value]))
         run = gui.add_button_group('time', ('pause', 'go', 'step', 'reset'))

@@ -16,6 +16,7 @@
 
 from contextlib import contextmanager, redirect_stdout
 import io
+import warnings
 
 import numpy as np
 import viser
@@ -41,7 +42,9 @@ def served(host, port):
             raise OSError(f'--port {port}: taken meanwhile; give another one, or 0 for any')
         yield server
     finally:
-        with redirect_stdout(io.StringIO()):
+        with redirect_stdout(io.StringIO()), warnings.catch_warnings():
+            # What is still worked out comes too late to be shown.
+            warnings.filterwarnings('ignore', 'Queued a ')
             server.stop()
 
 
