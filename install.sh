@@ -74,7 +74,7 @@ esac
 # MB of each on Linux x86_64; the tests draw too.
 size=105
 case ",$extras," in *,ros,*) size=$((size + 165)) ;; esac
-case ",$extras," in *,view,*) size=$((size + 55)) ;; esac
+case ",$extras," in *,view,*) size=$((size + 75)) ;; esac
 case ",$extras," in *,fast,*) size=$((size + 205)) ;; esac
 case ",$extras," in *,mesh,*|*,test,*) size=$((size + 10)) ;; esac
 case ",$extras," in *,test,*) size=$((size + 265)) ;; *,chart,*) size=$((size + 245)) ;; esac

@@ -55,6 +55,13 @@ def test_the_page_says_in_one_line_what_it_needs():
     assert done.stderr.endswith('pip install "boat_buoyancy[view]"\n')
 
 
+def test_the_page_of_running_nodes_says_in_one_line_that_it_needs_ros():
+    done = without(('rclpy', 'geometry_msgs'), VIEW, ['--port', '0', '--ros'])
+    # Where viser is missing, too, that is said first.
+    assert done.returncode == 2 and done.stdout == '' and done.stderr.count('\n') == 1
+    assert '--ros needs ROS 2 Jazzy ' in done.stderr or 'needs viser ' in done.stderr
+
+
 def test_only_what_is_missing_is_named():
     with pytest.raises(ValueError, match=r"^--plot needs no_such \(No module named 'no_such'\): "
                        r'pip install "boat_buoyancy\[view\]", or on Ubuntu apt install '

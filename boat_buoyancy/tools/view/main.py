@@ -98,8 +98,13 @@ def work(arguments):
 
 def found(arguments, told):
     """Return the `Remote` once a node is there, or the program is told to end."""
-    command_line.require_extra('ros', '--ros', 'rclpy')
-    from .remote import Remote
+    try:
+        from .remote import Remote
+    except ImportError as error:
+        if (error.name or '').startswith('boat_buoyancy'):
+            raise
+        raise ValueError(f'--ros needs ROS 2 Jazzy ({error}): source /opt/ros/jazzy/setup.bash, '
+                         'or run ./install.sh ros,view') from None
     remote = Remote(arguments)
     where = '' if remote.wanted == '/' else f' in {remote.wanted}'
     print(f'{PROGRAM}: looking for a node named {NODE_NAME}{where}', flush=True)
