@@ -210,14 +210,14 @@ def test_keys_push_and_the_menu_leads_through_the_steps_of_the_idea(window):
 def shown(loop):
     """Give the address of the page of a loop while it runs in this process."""
     from boat_buoyancy.tools.view.page import Page
-    from boat_buoyancy.tools.view.stage import served
+    from boat_buoyancy.tools.view.stage import in_turn, served
     ending = threading.Event()
     with served('127.0.0.1', 0) as server:
-        page = Page(server, loop)
+        page = in_turn(server, Page, server, loop)
 
         def show():
             while not ending.wait(0.05):
-                page.show()
+                in_turn(server, page.show)
 
         showing = threading.Thread(target=show)
         loop.start()

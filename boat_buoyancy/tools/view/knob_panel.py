@@ -117,7 +117,7 @@ class KnobPanel:
         button = gui.add_button('Set')
         about = gui.add_markdown('')
 
-        def tell(_=None):
+        def tell():
             now = self._scene.values.get(name.value)
             value.value = str(list(now) if isinstance(now, tuple) else now)
             about.content = meaning(name.value)
@@ -127,7 +127,10 @@ class KnobPanel:
             given = name.value, value.value
             self._set(None, lambda _: read_value(*given))
 
-        name.on_update(tell)
+        @name.on_update
+        async def _(_):
+            tell()
+
         tell()
 
 

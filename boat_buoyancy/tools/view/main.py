@@ -116,15 +116,15 @@ def found(arguments, told):
 def show(floating, arguments, told):
     """Show what floats, a `Loop` or the like, until told to end."""
     from .page import Page
-    from .stage import served
+    from .stage import in_turn, served
     with served(arguments.host, arguments.port) as server:
-        page = Page(server, floating)
+        page = in_turn(server, Page, server, floating)
         address = f'http://{arguments.host}:{server.get_port()}'
         print(f'{PROGRAM}: {floating.name} floats at {address} until Ctrl-C', flush=True)
         if not arguments.no_open:
             webbrowser.open(address)
         while not told.wait(1.0 / PICTURES) and not floating.ended.done():
-            page.show()
+            in_turn(server, page.show)
 
 
 def main(argv=None):

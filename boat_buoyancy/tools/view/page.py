@@ -34,7 +34,8 @@ class Page:
     """
     What all pages of a server show alike.
 
-    Main arguments: ``server`` of viser; ``boat``, a `Loop` or what offers the same.
+    Main arguments: ``server`` of viser; ``boat``, a `Loop` or what offers the same.  Made and
+    shown in the server's own thread, see `stage.in_turn`; what other threads say waits for it.
     """
 
     def __init__(self, server, boat):
@@ -49,14 +50,19 @@ class Page:
         self._message = gui.add_html('', visible=False)
         self._motion = MotionPanel(gui, boat, self._give, lambda: length_of(boat.scene.boat))
         camera = gui.add_dropdown('camera', CAMERAS, initial_value=CAMERAS[0])
-        camera.on_update(lambda event: event.client_id is not None and self._stage.look(
-            camera.value, boat.scene.boat))
+
+        @camera.on_update
+        async def _(event):
+            if event.client_id is not None:
+                self._stage.look(camera.value, boat.scene.boat)
+
         save = gui.add_button('Save as YAML', hint=(
             'A parameter file of the scene as tuned, which says what was changed.'))
         save.on_click(self._save)
         self._knobs = KnobPanel(gui, self._set)
         self._numbers = NumberPanel(gui, boat.history)
-        self._scene = self._begun = self._fault = None
+        self._scene = self._begun = None
+        self._sentence, self._shown_sentence, self._stable = '', '', None
         self._pictures = 0
         self.show()
 
@@ -70,17 +76,23 @@ class Page:
             self._knobs.rebuild(scene)
         if scene is not self._scene:
             self._scene = scene
-            found = figures(scene)
-            self._numbers.show_scene(scene, found)
-            self._worker.give('stable', lambda: self._numbers.show_scene(
-                scene, found, stable_step(scene)))
+            self._found = figures(scene)
+            self._numbers.show_scene(scene, self._found)
+            self._worker.give('stable', self._find_stable, scene)
+        if self._stable is not None:
+            of_scene, step = self._stable
+            self._stable = None
+            if of_scene is scene:
+                self._numbers.show_scene(scene, self._found, step)
         if self._pictures % SLOWLY == 0:
             self._knobs.show(scene)
             self._numbers.show(boat.history, boat.speed, boat.paused)
             self._motion.show()
-            if boat.fault != self._fault:
-                self._fault = boat.fault
-                self._say(f'stopped: {boat.fault}' if boat.fault else '')
+        sentence = self._sentence or (f'stopped: {boat.fault}' if boat.fault else '')
+        if sentence != self._shown_sentence:
+            self._shown_sentence = sentence
+            self._message.visible = bool(sentence)
+            self._message.content = REFUSED.format(escape(sentence))
         self._pictures += 1
 
     def _set(self, key, values):
@@ -97,11 +109,13 @@ class Page:
         self._say(str(error) or repr(error))
 
     def _say(self, sentence):
-        """Show a sentence above everything until something else goes well, '' for none."""
-        self._message.visible = bool(sentence)
-        self._message.content = REFUSED.format(escape(sentence))
+        """Have a sentence shown above everything until something else goes well, '' for none."""
+        self._sentence = sentence
 
-    def _save(self, event):
+    def _find_stable(self, scene):
+        self._stable = scene, stable_step(scene)
+
+    async def _save(self, event):
         if event.client is not None:
             event.client.send_file_download(f'{self._boat.name}_tuned.yaml',
                                             self._boat.text().encode(), save_immediately=True)

@@ -14,6 +14,7 @@
 
 """The server of the page, and what is drawn on it: boats on their water, as one looks at them."""
 
+from concurrent.futures import Future
 from contextlib import contextmanager, redirect_stdout
 import io
 import warnings
@@ -25,7 +26,7 @@ from .drawing import Drawing
 from .shapes import length_of
 
 # How the boat is looked at first: from there, in lengths of the boat.
-FROM_ABEAM, FROM_ABOVE = np.array([-0.9, -1.6, 0.8]), np.array([-0.01, 0.0, 4.5])
+FROM_ABEAM, FROM_ABOVE = np.array([-0.9, -1.6, 0.8]), np.array([-0.01, 0.0, 3.0])
 SKY = (226, 236, 245)
 CAMERAS = ('follow', 'from above', 'free')
 
@@ -46,6 +47,24 @@ def served(host, port):
             # What is still worked out comes too late to be shown.
             warnings.filterwarnings('ignore', 'Queued a ')
             server.stop()
+
+
+def in_turn(server, function, *arguments):
+    """
+    Return what a function gives that the server's own thread calls.
+
+    Whatever changes a page has to go this way: viser wakes what sends it without a lock, and a
+    change from another thread can meet that at work.
+    """
+    answer = Future()
+
+    def call():
+        try:
+            answer.set_result(function(*arguments))
+        except Exception as error:
+            answer.set_exception(error)
+    server.get_event_loop().call_soon_threadsafe(call)
+    return answer.result()
 
 
 class Stage:
