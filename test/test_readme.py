@@ -28,12 +28,14 @@ from boat_buoyancy.tools.chart import fidelity_text
 from boat_buoyancy.tools.chart.main import main as chart
 from boat_buoyancy.tools.chart.stability_map import predicted_loop_growth
 from boat_buoyancy.tools.chart.table import read
+from boat_buoyancy.tools.view.main import main as view
 import pytest
 from readme import blocks, commands, ROOT, section, table, TEXT
 
 PLAIN = 'the step is plain Python, some fifty times slower'
 TOOLS = {'buoyancy_report': report.main, 'buoyancy_simulate': simulate.main,
-         'buoyancy_chart': chart, 'buoyancy_hydrodynamics': hydrodynamics.main}
+         'buoyancy_chart': chart, 'buoyancy_hydrodynamics': hydrodynamics.main,
+         'buoyancy_view': view}
 TOPIC_TYPES = {name: kind for name, kind, *_ in table('Topics')}
 SERVICE_TYPES = {name: kind for name, kind, *_ in table('Services')}
 
