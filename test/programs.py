@@ -14,10 +14,13 @@
 
 """What the tests of the command-line programs share: one line for what is wrong, exit code 2."""
 
+import importlib.util
+from pathlib import Path
 import subprocess
 import sys
 
 # Runs a program where some modules cannot be imported, whether installed or not.
+EXAMPLES = Path(__file__).parents[1] / 'examples'
 WITHOUT = """
 import importlib
 import sys
@@ -52,3 +55,11 @@ def without(hidden, module, words):
     code = WITHOUT.format(path=sys.path, hidden=hidden, module=module, words=list(words))
     return subprocess.run([sys.executable, '-c', code], capture_output=True, text=True,
                           timeout=60)
+
+
+def loaded(name):
+    """Return an example as a module."""
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f'{name}.py')
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

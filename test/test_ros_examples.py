@@ -15,7 +15,6 @@
 """The examples do what they say: controllers that drive the boat, and parameters that fit it."""
 
 import ast
-import importlib.util
 import math
 from pathlib import Path
 import re
@@ -27,8 +26,9 @@ import time
 
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, WrenchStamped
 from nav_msgs.msg import Odometry
+from programs import loaded
 import pytest
 from readme import table
 from ros_probe import BoatProcess, Probe, ROOT
@@ -59,12 +59,11 @@ class Example:
         self.process.communicate(timeout=10.0)
 
 
-def loaded(name):
-    """Return an example as a module."""
-    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f'{name}.py')
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def constants(name):
+    """Return {name: number} of the constants at the top of an example."""
+    lines = [node for node in ast.parse((EXAMPLES / name).read_text()).body
+             if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)]
+    return {node.targets[0].id: node.value.value for node in lines}
 
 
 # cmd_vel_to_thrusters.py
@@ -168,6 +167,41 @@ def test_a_controller_written_for_vrx_brings_the_boat_of_the_launch_file_to_a_pl
         probe.until(lambda: sent)
         values = {item.key: item.value for item in sent[0].status[0].values}
         assert {values[f'thruster {side} (N)'] for side in ('left', 'right')} == {'0'}
+
+
+# heading_hold.py
+
+def test_the_controller_holds_a_heading_in_waves_and_ends_without_thrust():
+    # Waves push with at most the probes' 254 N s/m abeam times 0.31 m/s of the water, a metre off
+    # the middle: 80 N m, 0.04 rad of the controller's 2000 N m/rad. Roll and pitch add 0.0025.
+    wanted, near = constants('heading_hold.py')['HEADING'], 0.05
+    with BoatProcess({**QUIET, 'sea.waves': [0.2, 4.0, 0.8, 0.0]}) as boat, \
+            Probe(boat.namespace) as probe, \
+            Example('heading_hold.py', '-r', f'__ns:={boat.namespace}') as example:
+        odometry = probe.listen(Odometry, 'odom')
+        thrust = probe.listen(WrenchStamped, 'thrust')
+
+        def off():
+            q = odometry[-1].pose.pose.orientation
+            return abs(2.0 * math.atan2(q.z, q.w) - wanted)
+        probe.until(lambda: odometry)
+        assert off() > 8.0 * near
+        probe.until(lambda: off() < near and abs(odometry[-1].twist.twist.angular.z) < near, 30.0)
+        start, heard, worst = time.monotonic(), len(thrust), [0.0]
+        probe.until(lambda: time.monotonic() > start + 5.0, doing=lambda: worst.append(off()))
+        assert max(worst) < near
+        assert len(thrust) - heard >= 50
+        example.process.send_signal(signal.SIGINT)
+        assert example.process.wait(10.0) == 0
+        assert example.process.stderr.read() == ''
+        assert boat.alive
+
+
+def test_the_controller_ends_without_a_boat_as_well():
+    with Example('heading_hold.py', '-r', '__ns:=/nobody') as example, Probe('/nobody') as probe:
+        probe.until(lambda: probe.node.get_publishers_info_by_topic('/nobody/thrust'))
+        example.process.send_signal(signal.SIGINT)
+        assert example.process.wait(10.0) == 0
 
 
 # robot_localization

@@ -40,10 +40,11 @@ def one_line(message):
     return ' '.join(str(message).split())
 
 
-def scene_parser(program, description):
-    """Return a parser that takes one parameter file, as ``scene``; add options to it."""
+def scene_parser(program, description, many=False):
+    """Return a parser that takes a parameter file as ``scene``, or many as ``scenes``."""
     parser = OneLineParser(prog=program, description=description)
-    parser.add_argument('scene', metavar='SCENE',
+    parser.add_argument(*(['scenes'] if many else ['scene']), metavar='SCENE',
+                        **({'nargs': '+'} if many else {}),
                         help='parameter file of the boat and its sea, as config/barge.yaml')
     return parser
 

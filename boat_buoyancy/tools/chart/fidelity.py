@@ -24,8 +24,8 @@ import numpy as np
 from .accuracy import Run, step_seconds
 from .processes import results
 from .settings import hull_values
-from .stability_map import shipped_scenes
 from .table import Row
+from ..command_line import shipped_scenes
 from ...physics.hydrostatics.rest import rest_state
 from ...physics.scene.scene import load_scene, scene_from_values
 from ...physics.sea.waves import Sea
