@@ -20,8 +20,8 @@ import re
 
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.scene import parameter_file
-from boat_buoyancy.physics.scene.parameter_values import checked
 from boat_buoyancy.physics.scene.parameter_names import check_names, WORDS
+from boat_buoyancy.physics.scene.parameter_values import checked
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 import numpy as np
 import pytest

@@ -24,14 +24,18 @@ from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from boat_buoyancy.physics.step_size.plan import MAX_SUBSTEPS
 from boat_buoyancy.tools import hydrodynamics, report, simulate
+from boat_buoyancy.tools.chart import fidelity_text
 from boat_buoyancy.tools.chart.main import main as chart
 from boat_buoyancy.tools.chart.stability_map import predicted_loop_growth
+from boat_buoyancy.tools.chart.table import read
+from boat_buoyancy.tools.view.main import main as view
 import pytest
 from readme import blocks, commands, ROOT, section, table, TEXT
 
 PLAIN = 'the step is plain Python, some fifty times slower'
 TOOLS = {'buoyancy_report': report.main, 'buoyancy_simulate': simulate.main,
-         'buoyancy_chart': chart, 'buoyancy_hydrodynamics': hydrodynamics.main}
+         'buoyancy_chart': chart, 'buoyancy_hydrodynamics': hydrodynamics.main,
+         'buoyancy_view': view}
 TOPIC_TYPES = {name: kind for name, kind, *_ in table('Topics')}
 SERVICE_TYPES = {name: kind for name, kind, *_ in table('Services')}
 
@@ -253,6 +257,9 @@ def test_every_figure_of_accuracy_is_the_one_that_the_chart_wrote():
         claim = words.format(*figures)
         assert claim in text, claim
         text = text.replace(claim, ' ')
+    for sentence in fidelity_text.sentences(read(ROOT / 'doc' / 'fidelity.csv')):
+        assert sentence in text
+        text = text.replace(sentence, ' ')
     # And there is no other: figures in code and links are not of the chart.
     rest = re.sub(r'```.*?```|\]\([^)]*\)|`[^`]*`', ' ', text)
     assert re.findall(r'\d+(?:\.\d+)?', rest) == []
