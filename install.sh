@@ -15,14 +15,16 @@ needs no root. Extras, with commas between:
   ros    ROS 2 Jazzy from Python wheels, enough to run the node (the default)
   chart  the command-line tools with plots and charts; they need no ROS
   test   what the tests need
-  fast   Numba, which compiles the step; ros and chart take it along
-  mesh   trimesh, which reads hulls from mesh files; ros and chart take it along
+  view   the page of buoyancy_view; it needs no ROS
+  fast   Numba, which compiles the step; ros, chart and view take it along
+  mesh   trimesh, which reads hulls from mesh files; ros, chart and view take it along
   bem    capytaine, for buoyancy_hydrodynamics --bem
   bag    rosbags, which writes recordings (buoyancy_simulate --mcap); no ROS needed
 
   ./install.sh ros         the node
   ./install.sh ros,test    the node, and what the tests need
   ./install.sh chart       the physics and the command-line tools, without ROS
+  ./install.sh view        the page that shows a boat and tunes it, without ROS
 
 PYTHON=... chooses the Python, 3.10 to 3.14.
 END
@@ -59,13 +61,13 @@ esac
 [ $# -le 1 ] || fail "expected one list of extras with commas between, got '$*' (try --help)"
 for extra in $(printf '%s' "$extras" | tr , ' '); do
   case $extra in
-    ros|chart|test|fast|mesh|bem|bag) ;;
-    *) fail "expected extras out of ros, chart, test, fast, mesh, bem and bag, got '$extra'" \
+    ros|chart|view|test|fast|mesh|bem|bag) ;;
+    *) fail "expected extras out of ros, chart, view, test, fast, mesh, bem and bag, got '$extra'" \
          '(try --help)' ;;
   esac
 done
 case ",$extras," in
-  *,ros,*|*,chart,*)
+  *,ros,*|*,chart,*|*,view,*)
     for extra in fast mesh; do
       case ",$extras," in *,$extra,*) ;; *) extras=$extras,$extra ;; esac
     done
@@ -74,6 +76,7 @@ esac
 # MB of each on Linux x86_64; the tests draw too.
 size=105
 case ",$extras," in *,ros,*) size=$((size + 165)) ;; esac
+case ",$extras," in *,view,*) size=$((size + 75)) ;; esac
 case ",$extras," in *,fast,*) size=$((size + 205)) ;; esac
 case ",$extras," in *,mesh,*|*,test,*) size=$((size + 10)) ;; esac
 case ",$extras," in *,bem,*) size=$((size + 115)) ;; esac

@@ -48,6 +48,8 @@ setup(
         'bem': ['capytaine>=3.0'],
         # Writes recordings; MCAP's own reader reads them back in the tests.
         'bag': ['rosbags'],
+        # The page of buoyancy_view.
+        'view': ['viser'],
         'test': ['hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest', 'pytest-xdist',
                  'rosbags', 'scipy', 'trimesh'],
     },
@@ -64,6 +66,7 @@ setup(
             'buoyancy_simulate = boat_buoyancy.tools.simulate:main',
             'buoyancy_hydrodynamics = boat_buoyancy.tools.hydrodynamics:main',
             'buoyancy_chart = boat_buoyancy.tools.chart.main:main',
+            'buoyancy_view = boat_buoyancy.tools.view.main:main',
         ],
     },
 )

@@ -104,6 +104,12 @@ def windy():
     return replace(all_damping(), wind=[7.0, 11.0, -9.0])
 
 
+def in_waves(boat):
+    """Return a boat that takes water along, in waves that die out with depth."""
+    return replace(boat, added_mass=[300.0, 900.0, 1200.0, 250.0, 700.0, 500.0],
+                   immersion=np.linspace(0.1, 0.6, len(boat.hull.share)))
+
+
 def random_states(shape, seed, *, height=0.5, tilt=0.5, speed=0.5):
     """Return a `State` of many boats thrown about, seeded."""
     random = np.random.default_rng(seed)

@@ -20,6 +20,7 @@ from pathlib import Path
 from boat_buoyancy.physics.hydrostatics.rest import rest_state
 from boat_buoyancy.physics.scene.scene import load_scene
 from boat_buoyancy.tools.chart import advice, pareto_front, settings, trial as chart_trial
+from boat_buoyancy.tools.chart.accuracy import measure
 from boat_buoyancy.tools.chart.settings import Setting
 from boat_buoyancy.tools.chart.stretch import stretches
 from boat_buoyancy.tools.chart.trial import Result, Trial
@@ -306,3 +307,34 @@ def test_truth_of_a_hull_is_the_limit_of_ever_finer_panels():
     assert trial.own_error == pytest.approx(errors[1], rel=0.1)
     # Columns come to a limit of their own.
     assert trial.error(Setting('rk4', 64.0, (8, 8))) > 3.0 * errors[1]
+
+
+def test_added_mass_and_wave_force_of_a_scene_in_waves_are_one_more_choice_to_leave_out():
+    three = {'added_mass': [300.0, 700.0, 4900.0, 800.0, 4900.0, 1000.0],
+             'damping.linear': [800.0, 2200.0, 8500.0, 900.0, 5200.0, 1000.0],
+             'wave_force': 'froude_krylov'}
+    waves = {'sea.waves': [0.05, 3.0, 0.4, 0.0]}
+    plain, still, given = (load_scene(values).given for values in (
+        waves, three, {**waves, **three}))
+    assert not any(bare for *_, bare in (*settings.choices(plain), *settings.choices(still)))
+    models = settings.choices(given)
+    assert len(models) == 2 * len(settings.choices(plain))
+    left_out = Setting('leapfrog', 20.0, (2, 2), None, bare=True)
+    assert left_out.choice in models and replace(left_out, bare=False).choice in models
+    # It is the scene that never had them.
+    boat = load_scene({**given, **left_out.values()}).boat
+    other = load_scene({**plain, **left_out.values()}).boat
+    assert boat.damping.probe.tolist() == other.damping.probe.tolist()
+    assert not boat.follows_waves and not boat.added_mass.any()
+    pasted = yaml.safe_load('\n'.join(left_out.lines()))
+    assert pasted['wave_force'] == 'hydrostatic' and pasted['damping']['linear'] == [0.0] * 6
+    # What it is worth is seen at any step: the motion without them is another one.
+    run = replace(stretches(given)[0], duration=12.0).run
+    truth = run().solve(tolerance=1e-8, restart=False)
+    with_it, without = (measure(run(settings.hull_values((2, 2), None, bare)), truth, 'leapfrog',
+                                20.0).total for bare in (False, True))
+    assert with_it < 0.1 * without
+    # The table of the front gives it back.
+    hull = run().boat.hull
+    row = pareto_front._row('scene', hull, left_out, 0.1, 1e-5, True)
+    assert pareto_front.setting_of(row) == left_out

@@ -32,7 +32,7 @@ from boat_buoyancy.physics.stepping.engine import decay_of_waves
 from boat_buoyancy.physics.stepping.integrators import INTEGRATORS
 from boat_buoyancy.physics.stepping.march import begin, LOAD_SIZE, march_by, PACE
 from boat_buoyancy.physics.stepping.speed_bound import SpeedBound
-from boats import asymmetric_boat, LAWS, random_states, wind_sea, windy
+from boats import asymmetric_boat, in_waves, LAWS, random_states, wind_sea, windy
 import numpy as np
 import pytest
 
@@ -80,12 +80,6 @@ def panelled(boat):
     """Return a boat that the pressure on a box lifts, and not its probes."""
     return replace(boat, hull=replace(
         boat.hull, panels=box_surface((2.0, 1.5, 0.8)).refined(0.7), specific_weight=1e4))
-
-
-def in_waves(boat):
-    """Return a boat that takes water along, in waves that die out with depth."""
-    return replace(boat, added_mass=[300.0, 900.0, 1200.0, 250.0, 700.0, 500.0],
-                   immersion=np.linspace(0.1, 0.6, len(boat.hull.share)))
 
 
 @needs_numba

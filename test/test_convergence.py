@@ -18,8 +18,8 @@ from functools import lru_cache
 
 from boat_buoyancy.physics import Sea, State
 from boats import (
-    all_damping, asymmetric_boat, DRAFT, HEAVE, INTEGRATORS, last_state, LAWS, reference_boat,
-    turned, undamped, wind_sea, windy)
+    all_damping, asymmetric_boat, DRAFT, HEAVE, in_waves, INTEGRATORS, last_state, LAWS,
+    reference_boat, turned, undamped, wind_sea, windy)
 import numpy as np
 import pytest
 from textbook import solve
@@ -40,6 +40,9 @@ CASES = {
                    (0.0,) * 6),
     **{law: (asymmetric_boat(law, floatiness=2.5, damping=all_damping()), wind_sea(),
              (300.0, -100.0, 50.0, 40.0, -60.0, 80.0)) for law in LAWS},
+    'water taken along': (
+        in_waves(asymmetric_boat('column', floatiness=2.5, damping=windy())),
+        wind_sea().with_wind((9.0, 7.0)), (300.0, -100.0, 50.0, 40.0, -60.0, 80.0)),
     'wind': (asymmetric_boat(floatiness=2.5, damping=windy()), wind_sea().with_wind((9.0, 7.0)),
              (0.0,) * 6),
 }

@@ -17,6 +17,7 @@
 from types import SimpleNamespace
 
 from boat_buoyancy.physics import Boat, Sea, Simulation, State
+from boat_buoyancy.physics.forces.added_mass import mass_in_force
 from boat_buoyancy.physics.forces.damping import damping_wrench, no_damping, with_body, with_point
 from boat_buoyancy.physics.hydrostatics.natural_modes import damping_matrix
 from boat_buoyancy.physics.stepping.equations_of_motion import damped_accelerations
@@ -30,8 +31,13 @@ from scipy.linalg import expm
 pytestmark = pytest.mark.plain
 
 INERTIA = np.array([[600.0, 60.0, -40.0], [60.0, 800.0, 30.0], [-40.0, 30.0, 1000.0]])
-MASS = np.block([[1000.0 * np.eye(3), np.zeros((3, 3))], [np.zeros((3, 3)), INERTIA]])
-BOAT = SimpleNamespace(mass=1000.0, inertia=(600.0, 800.0, 1000.0, 60.0, -40.0, 30.0))
+ADDED = (300.0, 900.0, 1500.0, 250.0, 900.0, 400.0)
+BOAT = SimpleNamespace(mass=1000.0, inertia=(600.0, 800.0, 1000.0, 60.0, -40.0, 30.0),
+                       added_mass=ADDED)
+# Three quarters in the water.
+LOAD = SimpleNamespace(wetness=0.75)
+MASS = np.block([[1000.0 * np.eye(3), np.zeros((3, 3))], [np.zeros((3, 3)), INERTIA]]) + (
+    0.75 * np.diag(ADDED))
 
 
 def skew(r):
@@ -75,7 +81,7 @@ def test_a_step_solves_with_the_whole_matrix(seed):
     random, s = np.random.default_rng(seed + 20), 0.3
     pushed = random.normal(size=6) * 1e4
     np.testing.assert_allclose(
-        np.concatenate(damped_accelerations(BOAT, damping, s, *halves(pushed))),
+        np.concatenate(damped_accelerations(BOAT, LOAD, damping, s, *halves(pushed))),
         np.linalg.solve(MASS + s * matrix, pushed), rtol=1e-11, atol=1e-11)
 
     # Springs k_i at points p_i along a direction up: K+ = sum k_i g_i g_i^T, g_i = (up, p_i x up).
@@ -86,7 +92,7 @@ def test_a_step_solves_with_the_whole_matrix(seed):
     sprung = (k[:, None] * g).T @ g
     turning = sprung[3:, 3:]
     accelerations = solve_implicit(
-        BOAT, damping, tuple(up.tolist()), float(k.sum()),
+        *mass_in_force(BOAT, LOAD.wetness), damping, tuple(up.tolist()), float(k.sum()),
         tuple((k @ g[:, 3:]).tolist()), tuple(turning[i, j] for i, j in (
             (0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))), s, *halves(pushed))
     np.testing.assert_allclose(

@@ -151,7 +151,7 @@ def exploding_boat():
     return asymmetric_boat(damping=undamped(probe=1e5))
 
 
-@pytest.mark.parametrize('place', [0, 2, 4])
+@pytest.mark.parametrize('place', [0, 1, 2, 3])
 def test_a_boat_that_diverges_stands_still_and_the_rest_goes_on_as_without_it(place):
     many = different()
     boats, seas = many.boats[:5], many.seas[:5]

@@ -22,7 +22,7 @@ import pytest
 
 SCENE = str(Path(__file__).parents[1] / 'config' / 'default.yaml')
 SIMULATE, CHART = 'boat_buoyancy.tools.simulate', 'boat_buoyancy.tools.chart.main'
-REPORT = 'boat_buoyancy.tools.report'
+REPORT, VIEW = 'boat_buoyancy.tools.report', 'boat_buoyancy.tools.view.main'
 RUN = [SCENE, '--duration', '0.1']
 # What the extra brings: Pillow comes with Matplotlib.
 BROUGHT = ('matplotlib', 'PIL', 'scipy')
@@ -46,6 +46,20 @@ def test_what_needs_the_extra_chart_says_so_in_one_line(module, words, needs):
 def test_what_does_not_need_it_runs_all_the_same(module, words):
     done = without(BROUGHT, module, words)
     assert done.returncode == 0, done.stderr
+
+
+def test_the_page_says_in_one_line_what_it_needs():
+    done = without(('viser',), VIEW, [SCENE, '--port', '0', '--no-open'])
+    assert done.returncode == 2 and done.stdout == '' and done.stderr.count('\n') == 1
+    assert 'the page needs viser ' in done.stderr
+    assert done.stderr.endswith('pip install "boat_buoyancy[view]"\n')
+
+
+def test_the_page_of_running_nodes_says_in_one_line_that_it_needs_ros():
+    done = without(('rclpy', 'geometry_msgs'), VIEW, ['--port', '0', '--ros'])
+    # Where viser is missing, too, that is said first.
+    assert done.returncode == 2 and done.stdout == '' and done.stderr.count('\n') == 1
+    assert '--ros needs ROS 2 Jazzy ' in done.stderr or 'needs viser ' in done.stderr
 
 
 def test_only_what_is_missing_is_named():

@@ -33,7 +33,7 @@ from boat_buoyancy.physics.rotation import rotation_matrix, to_roll_pitch_yaw
 from boats import all_damping, box_boat, crossings, same, simulate, turned, undamped, wind_sea
 import numpy as np
 import pytest
-from random_boats import draw
+from random_boats import afloat_in_waves, draw
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 from scipy.spatial.transform import Rotation
 from test_bound import ROUND_OFF, worst_ratio
@@ -378,6 +378,11 @@ def hostile(seed):
 
 def test_no_step_of_implicit_passes_the_bound_of_random_boats_on_panels():
     ratios = [worst_ratio(hostile(seed)) for seed in range(120)]
+    assert max(ratios) <= 1.0 + ROUND_OFF
+
+
+def test_no_step_of_implicit_passes_the_bound_of_random_panelled_boats_that_follow_the_waves():
+    ratios = [worst_ratio(afloat_in_waves(hostile(seed), seed)) for seed in range(120)]
     assert max(ratios) <= 1.0 + ROUND_OFF
 
 

@@ -26,7 +26,9 @@ from boat_buoyancy.physics.scene import parameter_file
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from boat_buoyancy.physics.step_size.plan import MAX_SUBSTEPS
 from boat_buoyancy.tools import parameter_table
+from boat_buoyancy.tools.chart import fidelity_text
 from boat_buoyancy.tools.chart.stability_map import predicted_loop_growth
+from boat_buoyancy.tools.chart.table import read
 import pytest
 from readme import (blocks, commands, headings, page, PAGES, prose, README, ROOT, section, table,
                     TEXT)
@@ -204,6 +206,13 @@ def test_what_is_at_a_glance_is_in_the_tables():
     assert set(SERVICE_TYPES) <= {row[0] for row in table('Topics and services at a glance')}
 
 
+def test_every_extra_that_is_installed_exists():
+    known = set(re.findall(r"^        '(\w+)': \[", (ROOT / 'setup.py').read_text(), re.MULTILINE))
+    asked = re.findall(r'\./install\.sh ([\w,]+)', TEXT)
+    assert len(asked) > 5
+    assert {extra for extras in asked for extra in extras.split(',')} <= known
+
+
 def test_every_file_in_a_command_exists():
     written = {'run.csv', 'run.png', 'boat.gif', 'run.mcap'}
     count = 0
@@ -219,7 +228,9 @@ def test_every_file_in_a_command_exists():
     assert count > 10
 
 
-@pytest.mark.parametrize('command', [c for c in commands() if c.startswith('buoyancy_')])
+@pytest.mark.parametrize('command', [
+    command.removeprefix('.venv/bin/') for command in commands()
+    if re.match(r'(\.venv/bin/)?buoyancy_(?!node)', command)])
 def test_every_tool_command_is_understood(command):
     name, *arguments = shlex.split(command)
     options = [word for word in arguments if word.startswith('--')]
@@ -382,9 +393,20 @@ def test_every_figure_of_accuracy_is_the_one_that_the_chart_wrote():
         claim = words.format(*figures)
         assert claim in text, claim
         text = text.replace(claim, ' ')
+    for sentence in fidelity_text.sentences(read(ROOT / 'doc' / 'fidelity.csv')):
+        assert sentence in text
+        text = text.replace(sentence, ' ')
     # And there is no other: figures in code and links are not of the chart.
     rest = re.sub(r'```.*?```|\]\([^)]*\)|`[^`]*`', ' ', text)
     assert re.findall(r'\d+(?:\.\d+)?', rest) == []
+
+
+def test_the_three_parameters_halve_the_error_as_the_readme_says():
+    rows = read(ROOT / 'doc' / 'fidelity.csv')
+    without, all_three = (fidelity_text.overall(rows, 'columns', fidelity_text.COUNT, parts)[0]
+                          for parts in (fidelity_text.NONE, fidelity_text.ALL))
+    assert 'more than halve the error' in README
+    assert all(2.0 * after < before for before, after in zip(without, all_three))
 
 
 def test_the_figures_about_stability_are_those_of_the_long_runs_and_the_loop():

@@ -15,8 +15,9 @@
 """The chart's reference solution against closed forms and an independent model."""
 
 from boat_buoyancy.physics.boat.state import State
+from boat_buoyancy.physics.scene.scene import load_scene
 from boat_buoyancy.physics.sea.waves import Sea
-from boat_buoyancy.tools.chart.accuracy import apart, reference_error, Run
+from boat_buoyancy.tools.chart.accuracy import apart, measure, reference_error, Run
 from boat_buoyancy.tools.chart.reference_solution import solve
 from boats import (asymmetric_boat, box_boat, DRAFT, HEAVE, MASS, reference_boat, undamped,
                    wind_sea, windy)
@@ -127,3 +128,16 @@ def test_a_boat_at_rest_meets_no_kinks():
     motion = solve(boat, STILL, start, 20.0)
     assert motion.kinks == ()
     np.testing.assert_allclose(motion.at([20.0]).position, [[0.0, 0.0, -DRAFT]], atol=1e-11)
+
+
+def test_waves_that_die_out_with_depth_move_the_reference_as_they_move_a_fine_step():
+    scene = load_scene({
+        'sea.waves': [0.05, 3.0, 0.4, 0.0], 'wave_force': 'froude_krylov',
+        'added_mass': [300.0, 700.0, 4900.0, 800.0, 4900.0, 1000.0],
+        'damping.linear': [800.0, 2200.0, 8500.0, 900.0, 5200.0, 1000.0]})
+    run = Run('waves', scene.boat, scene.sea, scene.start, 6.0)
+    truth = run.solve(tolerance=1e-10)
+    # A hull that the wave moves as far as itself, and rk4 of (omega h)^4 / 120 for each of some 40
+    # rad, omega h = 6 / 128: 2e-6 of a wave of 5 cm, with a factor of 10 for the rest of the boat.
+    assert np.ptp(truth.at(TIMES[:120]).position[:, 2]) > 0.05
+    assert measure(run, truth, 'rk4', 128.0).total < 1e-6

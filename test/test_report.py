@@ -42,7 +42,9 @@ KEYS = [
     'draft_m', 'rest_roll_deg', 'rest_pitch_deg', 'floatiness', 'displacement_kg',
     'displaced_volume_m3', 'wetted_surface_m2', 'gm_transverse_m', 'gm_longitudinal_m',
     'heave_period_s', 'roll_period_s', 'pitch_period_s', 'heave_damping_ratio',
-    'roll_damping_ratio', 'pitch_damping_ratio', 'max_stable_step_s', 'substeps', 'sea',
+    'roll_damping_ratio', 'pitch_damping_ratio', 'heave_period_without_added_mass_s',
+    'roll_period_without_added_mass_s', 'pitch_period_without_added_mass_s', 'handling',
+    'max_stable_step_s', 'substeps', 'sea',
     'warnings', 'gz_heel_deg', 'gz_m', 'gz_exact_m', 'gz_exact_to_deg', 'model_error', 'step']
 SEA_KEYS = ['significant_height_m', 'steepness', 'shortest_wave_m', 'shortest_wave_s',
             'longest_wave_m', 'longest_wave_s', 'meets']
@@ -108,9 +110,10 @@ def test_every_scene_has_all_figures_and_only_numbers(path):
         'leapfrog', 'implicit', 'rk4', 'symplectic_euler', 'euler'}
     assert result['gz_heel_deg'] == [5.0 * i for i in range(37)]
     assert len(result['gz_m']) == 37
-    nested = 'max_stable_step_s', 'sea', 'warnings', 'gz_heel_deg', 'model_error', 'step'
+    nested = 'handling', 'max_stable_step_s', 'sea', 'warnings', 'gz_heel_deg', 'model_error', 'step'
     numbers = [result[key] for key in KEYS if key not in (*nested, 'gz_m', 'gz_exact_m')]
     for value in [*numbers, *result['max_stable_step_s'].values(), *result['gz_m'],
+                  *(result['handling'] or {}).values(),
                   *(result['gz_exact_m'] or [])]:
         assert value is None or is_number(value)
     of_hull = load_scene(path).boat.hull.surface is not None

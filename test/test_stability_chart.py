@@ -17,7 +17,8 @@
 from boat_buoyancy.tools.chart import stability_map, stability_plot
 from boat_buoyancy.tools.chart.stability_map import (bobbing_boat, loop_growth, measure_map,
                                                      predicted_angle, predicted_loop_growth,
-                                                     scene_points, shipped_scenes)
+                                                     scene_points)
+from boat_buoyancy.tools.command_line import shipped_scenes
 from boats import INTEGRATORS
 import numpy as np
 import pytest

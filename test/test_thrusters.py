@@ -54,10 +54,13 @@ def test_full_ahead_gives_the_otter_the_six_knots_that_its_drag_was_made_from():
 @pytest.mark.parametrize('stronger, sign', [('right', 1.0), ('left', -1.0)])
 def test_a_hundred_newton_more_on_one_side_turns_to_the_other(stronger, sign):
     commands = {'left': 150.0, 'right': 150.0, stronger: 250.0}
-    run = driven(load_scene(CONFIG / 'wam_v.yaml'), 60.0, commands)
-    # At the end 100 N on an arm of 1.027135 m against 800 r + 800 r^2, turned by the drag of what
-    # it drifts sideways: none, as its drag acts at the centre of mass.
-    torque = 100.0 * 1.027135
+    scene = load_scene(CONFIG / 'wam_v.yaml')
+    run = driven(scene, 60.0, commands)
+    # At the end 100 N on an arm of 1.027135 m and the moment of Munk, (M v) x v of the added mass,
+    # against 800 r + 800 r^2; its drag acts at the centre of mass and turns it by nothing.
+    ahead, abeam, _ = run.body_velocity[-1]
+    ahead_mass, abeam_mass, *_ = scene.boat.added_mass
+    torque = 100.0 * 1.027135 + sign * (ahead_mass - abeam_mass) * ahead * abeam
     rate = (-1.0 + math.sqrt(1.0 + 4.0 * torque / 800.0)) / 2.0
     assert run.angular_velocity[-1, 2] == pytest.approx(sign * rate, rel=1e-3)
 

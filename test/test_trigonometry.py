@@ -17,7 +17,7 @@
 import math
 
 from boat_buoyancy.physics.compiled import machine_code
-from boat_buoyancy.physics.trigonometry import sine_cosine
+from boat_buoyancy.physics.trigonometry import decay, sine_cosine
 import numpy as np
 import pytest
 
@@ -72,3 +72,15 @@ def test_the_sine_is_odd_and_the_cosine_even(twin):
     for x in angles(1e6, 2000):
         sine, cosine = function(x)
         assert function(-x) == (-sine, cosine)
+
+
+@plain_and_compiled
+def test_the_decay_is_right_to_1e_11_of_it_down_to_e_to_the_minus_20_and_never_rises(twin):
+    function = twin(decay)
+    values = np.linspace(-20.0, 0.0, 20_001).tolist()
+    for x in values:
+        assert abs(function(x) / math.exp(x) - 1.0) <= 1e-11, x
+    assert function(0.0) == 1.0
+    # Beyond, it is next to nothing and stays so.
+    deep = [function(x) for x in (-1e308, -1e3, -40.0, -30.0, -20.0)]
+    assert 0.0 < deep[0] == deep[1] == deep[2] < deep[3] < deep[4] and deep[2] < 1e-16

@@ -19,6 +19,8 @@ Nothing here is shared with the package but the data of Boat and Sea: rotations 
 time integration is SciPy's adaptive eighth-order DOP853, the forces are plain sums.
 """
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -33,6 +35,7 @@ def cross(a, b):
                      a[0] * b[1] - a[1] * b[0]])
 
 
+@lru_cache(maxsize=None)
 def dispersion(angular_frequency, depth, gravity, current=0.0):
     """
     Return the wave number of linear waves on a current along them, by bracketing.
@@ -63,6 +66,58 @@ def water(sea, x, y, time):
         velocity = velocity + amplitude * (frequency - k * along) * (
             np.cos(theta) / shallow * ahead + np.sin(theta) * UP)
     return height, velocity
+
+
+def water_below(sea, x, y, depth, time):
+    """
+    Return what linear waves do down to a depth: height, its worth at the depth, slope, motions.
+
+    The slope is the mean over the depth; orbital velocity and acceleration, of water that the
+    current carries along, are horizontal at half the depth and vertical at it.  No depth is below
+    the bottom.
+    """
+    height, felt, slope, velocity, acceleration = 0.0, 0.0, np.zeros(2), np.zeros(3), np.zeros(3)
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    for amplitude, period, direction, phase in sea.waves:
+        frequency = 2 * np.pi / period
+        ahead = np.array([np.cos(direction), np.sin(direction), 0.0])
+        along = ahead[:2] @ sea.current
+        k = dispersion(frequency, sea.depth, sea.gravity, along)
+        s, down = frequency - k * along, min(depth, sea.depth or depth)
+
+        def dying(profile, d):
+            if not sea.depth:
+                return np.exp(-k * d)
+            return profile(k * (sea.depth - d)) / profile(k * sea.depth)
+
+        theta = k * (x * ahead[0] + y * ahead[1]) - frequency * time + phase
+        cosine, sine = amplitude * np.cos(theta), amplitude * np.sin(theta)
+        height += cosine
+        felt += cosine * dying(np.cosh, down)
+        mean = 0.5 * weights @ dying(np.cosh, down * (1.0 + nodes) / 2.0)
+        slope = slope - k * sine * mean * ahead[:2]
+        shallow = np.tanh(k * sea.depth) if sea.depth else 1.0
+        level = s / shallow * dying(np.cosh, down / 2.0) * ahead
+        upright = s * dying(np.sinh, down) * UP
+        velocity = velocity + cosine * level + sine * upright
+        acceleration = acceleration + s * (sine * level - cosine * upright)
+    return height, felt, slope, velocity, acceleration
+
+
+def as_twist(boat, motions):
+    """
+    Return the motion (6,) about the centre of mass that water at the probes (n, 3) amounts to.
+
+    In body axes: the mean over the waterplane, and its first moments over the second ones.
+    """
+    share = boat.hull.max_force / boat.hull.max_force.sum()
+    places = (boat.hull.positions - boat.center_of_mass) * [1.0, 1.0, 0.0]
+    middle = share @ places
+    x, y, _ = (places - middle).T
+    u, v, w = np.transpose(motions)
+    turning = np.array([share @ (y * w) / (share @ y**2), -(share @ (x * w)) / (share @ x**2),
+                        share @ (x * v - y * u) / (share @ (x**2 + y**2))])
+    return np.concatenate([share @ motions - cross(turning, middle), turning])
 
 
 def lift_of_probe(law, height, depth, up_body):
@@ -104,19 +159,33 @@ def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,)
     ``velocity`` is in world axes, ``spin`` in body axes, ``thrust`` (6,) in body axes at the
     body origin.
     """
+    return load(boat, sea, time, position, orientation, velocity, spin, thrust)[:2]
+
+
+def load(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,) * 6):
+    """Return what `wrench` does, and how far the boat is in the water, 0 to 1."""
     hull, damping = boat.hull, boat.damping
     turn = Rotation.from_quat(orientation).as_matrix()
     spin_world = turn @ spin
     weights = hull.max_force / hull.max_force.sum()
     force = np.array([0.0, 0.0, -boat.mass * boat.gravity])
     torque = np.zeros(3)
-    wetness, mean_water = 0.0, np.zeros(3)
-    for place, weight, most, height in zip(hull.positions, weights, hull.max_force, hull.height):
+    wetness, mean_water, turning, flows, pushes = 0.0, np.zeros(3), np.zeros(3), [], []
+    immersion = boat.immersion if len(boat.immersion) else [None] * len(weights)
+    for place, weight, most, height, deep in zip(
+            hull.positions, weights, hull.max_force, hull.height, immersion):
         arm = turn @ (place - boat.center_of_mass)
         probe = position + arm
         surface, flow = water(sea, probe[0], probe[1], time)
         wet, share, along = lift_of_probe(hull.law, height, surface - probe[2], turn[2, 2])
         lift = most * share * UP
+        if deep is not None:
+            surface, felt, slope, orbital, faster = water_below(sea, *probe[:2], deep, time)
+            flow = orbital + [*sea.current, 0.0]
+            flows.append(turn.T @ orbital)
+            pushes.append(turn.T @ faster)
+            _, share, along = lift_of_probe(hull.law, height, felt - probe[2], turn[2, 2])
+            lift = most * share * np.array([*-slope, 1.0])
         ramp = np.clip(wet / (0.1 * height), 0.0, 1.0)
         drag = -turn @ (damping.probe * weight * ramp * (
             turn.T @ (velocity + cross(spin_world, arm) - flow)))
@@ -126,17 +195,25 @@ def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,)
         mean_water = mean_water + weight * flow
     torque = turn.T @ torque
 
-    slip = turn.T @ (velocity - mean_water)
+    taken_along = wetness * boat.added_mass
+    if flows:
+        carried = as_twist(boat, np.array(flows))
+        mean_water, turning = turn @ carried[:3] + [*sea.current, 0.0], carried[3:]
+        push = taken_along * as_twist(boat, np.array(pushes))
+        force, torque = force + turn @ push[:3], torque + push[3:]
+    slip, turns = turn.T @ (velocity - mean_water), spin - turning
     water_rates = -np.log(np.concatenate([damping.linear_retention, damping.angular_retention]))
     air_rates = -np.log(np.concatenate([damping.air_linear_retention,
                                         damping.air_angular_retention]))
-    rates = wetness * water_rates + (1.0 - wetness) * air_rates
-    retained = (wetness * angular_retention(boat.inertia, water_rates[3:])
+    masses = (wetness * water_rates[:3] * (boat.mass + boat.added_mass[:3])
+              + (1.0 - wetness) * air_rates[:3] * boat.mass)
+    wide = boat.inertia + np.diag(boat.added_mass[3:])
+    retained = (wetness * angular_retention(wide, water_rates[3:])
                 + (1.0 - wetness) * angular_retention(boat.inertia, air_rates[3:]))
-    motion = np.concatenate([slip, spin])
+    motion = np.concatenate([slip, turns])
     drag = wetness * (damping.linear + damping.quadratic * np.abs(motion)) * motion
-    force = force - turn @ (boat.mass * rates[:3] * slip + drag[:3])
-    torque = torque - retained @ spin - drag[3:]
+    force = force - turn @ (masses * slip + drag[:3])
+    torque = torque - retained @ turns - drag[3:]
 
     surge, sway, yaw = damping.wind
     ahead = np.array([yaw / sway if yaw else 0.0, 0.0, 0.0])
@@ -145,23 +222,35 @@ def wrench(boat, sea, time, position, orientation, velocity, spin, thrust=(0.0,)
     force, torque = force - turn @ drag, torque - cross(ahead, drag)
 
     push, twist = np.array(thrust[:3], float), np.array(thrust[3:], float)
-    return force + turn @ push, torque + twist + cross(-boat.center_of_mass, push)
+    return (force + turn @ push, torque + twist + cross(-boat.center_of_mass, push), wetness)
 
 
 def solve(boat, sea, state, times, thrust=(0.0,) * 6, *, tolerance=1e-12, max_step=np.inf):
-    """Return position, orientation, velocity, angular velocity at ``times``, rows of 13."""
-    inverse = np.linalg.inv(boat.inertia)
+    """
+    Return position, orientation, velocity, angular velocity at ``times``, rows of 13.
+
+    With added mass of a boat whose wetness stays what it is.
+    """
+    current = np.array([*sea.current, 0.0])
 
     def rates(time, values):
         orientation = values[3:7] / np.linalg.norm(values[3:7])
         velocity, spin = values[7:10], values[10:13]
-        force, torque = wrench(boat, sea, time, values[:3], orientation, velocity, spin, thrust)
+        force, torque, wetness = load(boat, sea, time, values[:3], orientation, velocity, spin,
+                                      thrust)
+        added = wetness * boat.added_mass
+        M, J = boat.mass + added[:3], boat.inertia + np.diag(added[3:])
+        turn = Rotation.from_quat(orientation).as_matrix()
+        # The momentum of boat and water turns with the boat, relative to the current (Kirchhoff).
+        relative = turn.T @ (velocity - current)
+        gaining = turn @ ((turn.T @ force - cross(spin, M * relative)) / M + cross(spin, relative))
+        torque = torque + cross(M * relative, relative)
         x, y, z, w = values[3:7]
         p, q, r = spin
         turning = 0.5 * np.array([w * p + y * r - z * q, w * q + z * p - x * r,
                                   w * r + x * q - y * p, -x * p - y * q - z * r])
-        return np.concatenate([velocity, turning, force / boat.mass,
-                               inverse @ (torque - cross(spin, boat.inertia @ spin))])
+        return np.concatenate([velocity, turning, gaining,
+                               np.linalg.solve(J, torque - cross(spin, J @ spin))])
 
     start = np.concatenate([state.position, state.orientation, state.velocity,
                             state.angular_velocity])

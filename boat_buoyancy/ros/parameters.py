@@ -27,10 +27,10 @@ from rcl_interfaces.msg import (FloatingPointRange, IntegerRange, ParameterDescr
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from .session import WAVES
 from ..physics.checks import shown
+from ..physics.scene.changes import changed
 from ..physics.scene.parameter_file import ROS_OWN
-from ..physics.scene.parameters import check_names, PARAMETERS, WAVE_KINDS
+from ..physics.scene.parameters import check_names, PARAMETERS
 from ..physics.scene.scene import scene_from_values
 
 TYPES = {
@@ -205,30 +205,18 @@ class LiveParameters:
 
     def _merged(self, requested):
         """Return what would be given after a set; ValueError for what can never be set."""
-        given, names = dict(self._given), [parameter.name for parameter in requested]
-        for name in names:
-            if is_ros_own(name):
-                raise ValueError(f'{name}: cannot change while the node runs')
-        check_names(names)
+        for parameter in requested:
+            if is_ros_own(parameter.name):
+                raise ValueError(f'{parameter.name}: cannot change while the node runs')
+        check_names(parameter.name for parameter in requested)
         for parameter in requested:
             if PARAMETERS[parameter.name].read_only:
                 raise ValueError(f'{parameter.name}: cannot change while the node runs; '
                                  'start it again with the new value')
-            given[parameter.name] = typed(parameter)
-            if parameter.type_ is Parameter.Type.NOT_SET:
-                # `ros2 param delete`: back to the start, where None was not given.
-                given[parameter.name] = self._at_start.get(parameter.name)
-        # A set that asks for one kind of waves replaces the others.
-        for kind in WAVE_KINDS:
-            if any(given.get(name) for name in kind if name in names):
-                for other in WAVE_KINDS:
-                    for name in other:
-                        if other is not kind and name not in names:
-                            given.pop(name, None)
-        # What is deleted brings back the waves that it replaced.
-        if WAVES.intersection(names) and not any(map(given.get, WAVES)):
-            given.update((name, self._at_start.get(name)) for name in WAVES.difference(names))
-        return {name: value for name, value in given.items() if value is not None}
+        # `ros2 param delete` goes back to the start.
+        return changed(self._given, self._at_start, {
+            parameter.name: None if parameter.type_ is Parameter.Type.NOT_SET
+            else typed(parameter) for parameter in requested})
 
     def _is_as_fixed(self, parameter):
         """Return True for a value that cannot change and is in force, as of the node's dump."""

@@ -26,14 +26,12 @@ import numpy as np
 from .pacing import Grid, NANOSECONDS, Timeline
 from .thrust import ThrusterLatches, ThrustLatch
 from ..physics.hydrostatics.rest import rest_state
-from ..physics.scene.parameters import WAVE_KINDS
+from ..physics.scene.changes import WAVES
 from ..physics.sea.fading import fade, FadingSea
 from ..physics.stepping.simulation import SimulationError
 
-# Parameters that ask for waves; the rest of sea.* only shapes them.
-WAVES = frozenset(name for kind in WAVE_KINDS for name in kind)
+# What shapes an irregular sea, and asks for none.
 SHAPES = ('sea.direction', 'sea.spreading', 'sea.components', 'sea.seed')
-
 
 class Session:
     """

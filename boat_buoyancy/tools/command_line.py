@@ -17,13 +17,14 @@
 import argparse
 from importlib import import_module
 import os
+from pathlib import Path
 import sys
 import warnings
 
 from ..physics.stepping.simulation import SimulationError
 
 # Modules of the extras that Ubuntu 24.04 has no package of.
-NOT_IN_UBUNTU = ('capytaine', 'rosbags')
+NOT_IN_UBUNTU = ('capytaine', 'rosbags', 'viser')
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -45,6 +46,13 @@ def scene_parser(program, description):
     parser.add_argument('scene', metavar='SCENE',
                         help='parameter file of the boat and its sea, as config/barge.yaml')
     return parser
+
+
+def shipped_scenes():
+    """Return the parameter files that come with the package, from its source or as installed."""
+    source = Path(__file__).parents[2] / 'config'
+    installed = Path(sys.prefix) / 'share' / 'boat_buoyancy' / 'config'
+    return sorted((source if source.is_dir() else installed).glob('*.yaml'))
 
 
 def require_extra(extra, what, *modules):

@@ -67,10 +67,9 @@ class Axis:
         p, rate = (D - self.linear) / (D + self.linear), D / self.inertia
 
         def covered(time):
-            e = math.exp(-rate * time)
+            gone = -math.expm1(-rate * time)
             # log((1 + p e) / (1 + p)) (1 + p) / p, which goes over into -(1 - e) as p does into 0.
-            lost = (math.log1p(-p * (1.0 - e) / (1.0 + p)) * (1.0 + p) / p if p > 1e-9
-                    else -(1.0 - e))
+            lost = math.log1p(-p * gone / (1.0 + p)) * (1.0 + p) / p if p > 1e-9 else -gone
             return V * (time + lost / rate)
 
         low, high = 0.0, 1.0

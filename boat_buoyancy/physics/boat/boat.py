@@ -236,9 +236,9 @@ class Boat:
 
         Force -m d_i u_i; torque -C w, C = L diag(d) L^T with I = L L^T (Cholesky), the axes in
         order of rising d; in water m and I with the added mass.  Then I^-1 C = L^-T diag(d) L^T
-        is triangular with d on its diagonal: a rotation about a body axis decays at the rate of that axis, whatever the products of
-        inertia, and stirs none that decay faster.  As d_min I <= C <= d_max I, no torque ever
-        feeds energy in.
+        is triangular with d on its diagonal: a rotation about a body axis decays at the rate of
+        that axis, whatever the products of inertia, and stirs none that decay faster.  As
+        d_min I <= C <= d_max I, no torque ever feeds energy in.
         """
         matrices = np.zeros((2, 6, 6))
         for matrix, rates, wetness in zip(matrices, self.damping.rates, (1.0, 0.0)):

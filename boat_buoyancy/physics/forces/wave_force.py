@@ -143,18 +143,16 @@ def wave_decay(immersion, table):
     """
     k = np.hypot(table[KX], table[KY])
     bottom = bottom_decay(table)
-    depth = np.asarray(immersion, float)[:, None]
-
-    def below(d):
-        # No probe is below the bottom.
-        down = np.maximum(np.exp(-k * d), np.sqrt(bottom))
-        return down, bottom / np.maximum(down, np.finfo(float).tiny)
-
-    (down, up), (half_down, half_up) = below(depth), below(0.5 * depth)
-    kd = np.maximum(k * depth, 1e-12)
-    mean = (1.0 - down + up - bottom) / (kd * (1.0 + bottom))
-    whole, least = 1.0 + bottom, np.maximum(1.0 - bottom, np.finfo(float).tiny)
-    return np.stack([(down + up) / whole, np.where(k * depth > 1e-9, mean, 1.0),
+    tiny = np.finfo(float).tiny
+    deep = k * np.asarray(immersion, float)[:, None]
+    # No probe is below the bottom.
+    kd = np.minimum(deep, -0.5 * np.log(np.maximum(bottom, tiny)))
+    mean_over = np.maximum(np.where(bottom > 0.0, kd, deep), tiny)
+    (down, up), (half_down, half_up) = ((np.exp(-part), bottom * np.exp(part))
+                                        for part in (kd, 0.5 * kd))
+    whole, least = 1.0 + bottom, np.maximum(1.0 - bottom, tiny)
+    mean = (bottom * np.expm1(kd) - np.expm1(-kd)) / (mean_over * whole)
+    return np.stack([(down + up) / whole, np.where(kd > tiny, mean, 1.0),
                      (half_down + half_up) / whole, (down - up) / least], axis=1)
 
 

@@ -96,12 +96,10 @@ def within_bounds(boat, R, force, torque):
     """
     Return force and torque, body axes, of those in world axes.
 
-    Never more lift than that of the whole hull, pushed along by no more than it lifts, and never
-    from beyond its farthest corner, as `capped` of still water.
+    What the speed bound counts on: never more than a slope of one would push the whole hull,
+    half of it along and half up, and never from beyond its farthest corner.
     """
-    lift = min(max(force[2], 0.0), boat.max_lift)
-    along = math.sqrt(force[0] * force[0] + force[1] * force[1])
-    part = min(lift / (along + 1e-300), 1.0)
-    force = (part * force[0], part * force[1], lift)
+    size = math.sqrt(dot(force, force))
+    force = scale(min(math.sqrt(2.0) * boat.max_lift / (size + 1e-300), 1.0), force)
     lever, longest = math.sqrt(dot(torque, torque)), math.sqrt(dot(force, force)) * boat.reach
     return to_body(R, force), to_body(R, scale(min(longest / (lever + 1e-300), 1.0), torque))

@@ -16,7 +16,7 @@
 The command line of ``buoyancy_chart``.
 
 Speed against accuracy for all integrators and probes; advice for one scene; the speed of the
-step; the limits of stability.
+step; the limits of stability; hulls in waves against a boundary element method.
 """
 
 from pathlib import Path
@@ -32,7 +32,8 @@ DESCRIPTION = (
     'Charts speed against accuracy (speed_accuracy.png and .csv, _model.png, _front.png, '
     'righting_arm.png and a summary). With --tolerance it measures the scene and prints the '
     'cheapest setting that meets it; with --speed the cost of a step; with --stability where each '
-    'integrator is stable.')
+    'integrator is stable; with --fidelity how far hulls in waves are from a boundary element '
+    'method, with and without added mass and wave force.')
 
 
 def parser():
@@ -48,6 +49,8 @@ def parser():
                       help='measure the cost of a step: step_speed.md, speed.png, speed.csv')
     made.add_argument('--stability', action='store_true',
                       help='measure where each integrator is stable: stability.png')
+    made.add_argument('--fidelity', action='store_true',
+                      help='measure hulls in waves: fidelity.png, fidelity.csv')
     made.add_argument('--quick', action='store_true', help='coarser, in under a minute')
     return made
 
@@ -55,16 +58,16 @@ def parser():
 def work(arguments, progress):
     """Do what the arguments ask for; ValueError when they or a scene are wrong."""
     command_line.require_extra('chart', 'a chart', 'matplotlib', 'scipy')
-    asked = [name for name in ('tolerance', 'speed', 'stability')
+    asked = [name for name in ('tolerance', 'speed', 'stability', 'fidelity')
              if getattr(arguments, name) not in (None, False)]
     if len(asked) > 1:
         raise ValueError(f'--{asked[0]} and --{asked[1]}: expected one of them')
     if arguments.quick and asked == ['tolerance']:
         raise ValueError('--quick and --tolerance: expected one of them, advice is as quick as it '
                          'can be')
-    if arguments.scenes and asked in (['speed'], ['stability']):
+    if arguments.scenes and asked in (['speed'], ['stability'], ['fidelity']):
         raise ValueError(f'--{asked[0]}: expected no SCENE, got {arguments.scenes[0]}')
-    {'tolerance': _advise, 'speed': _speed, 'stability': _stability}.get(
+    {'tolerance': _advise, 'speed': _speed, 'stability': _stability, 'fidelity': _fidelity}.get(
         asked[0] if asked else None, _chart)(arguments, progress)
 
 
@@ -102,6 +105,18 @@ def _stability(arguments, progress):
     path = draw_stability(_folder(arguments.out), quick=arguments.quick, progress=progress)
     progress.clear()
     print(path)
+
+
+def _fidelity(arguments, progress):
+    from . import fidelity, fidelity_plot, fidelity_text, table
+    command_line.require_extra('mesh', '--fidelity', 'trimesh')
+    out = _folder(arguments.out)
+    table.write(out / 'fidelity.csv', fidelity.measure(arguments.quick, progress))
+    # Read again: picture and text are of the digits that the table has.
+    rows = table.read(out / 'fidelity.csv')
+    fidelity_plot.draw(rows, out / 'fidelity.png')
+    progress.clear()
+    print(*fidelity_text.lines(rows), f'Written to {out}: fidelity.png, .csv', sep='\n')
 
 
 def _chart(arguments, progress):

@@ -19,6 +19,7 @@ from functools import lru_cache
 
 from . import settings
 from .accuracy import force_evaluations
+from .fidelity import NONE
 from .settings import Setting
 from .stretch import stretches
 from .table import Row
@@ -103,7 +104,7 @@ def rows(name, items, found, quick):
         # The front: dearer only for a smaller error, and nothing that is started with a warning.
         leads = error < GAIN * best and accepts(setting)
         best = min(best, error) if leads else best
-        made.append(_row(name, hulls[setting.probes, setting.panel_size], setting, error, cpu,
+        made.append(_row(name, hulls[setting.choice], setting, error, cpu,
                          leads))
     return made
 
@@ -113,10 +114,11 @@ def _row(name, hull, setting, error, cpu, leads):
                len(hull.positions), 0 if hull.panels is None else len(hull.panels.triangles),
                '{}x{}'.format(*setting.probes) if setting.probes else None, setting.panel_size,
                evaluations=force_evaluations(setting.integrator, setting.rate),
-               cpu=cpu, error=error, front=int(leads))
+               cpu=cpu, error=error, front=int(leads),
+               parts=NONE if setting.bare else None)
 
 
 def setting_of(row):
     """Return the `Setting` of a row of the table."""
     probes = tuple(map(int, row.grid.split('x'))) if row.grid else None
-    return Setting(row.integrator, row.rate, probes, row.panel_size)
+    return Setting(row.integrator, row.rate, probes, row.panel_size, row.parts == NONE)

@@ -37,6 +37,7 @@ from ...physics.forces.probe_laws import MIN_UPRIGHT
 from ...physics.forces.wind import air_speed
 from ...physics.rotation import normalise, rotation_matrix, to_body
 from ...physics.sea.waves import Water
+from ...physics.stepping.engine import decay_of_waves
 from ...physics.stepping.rates import rate_of
 from ...physics.vectors import subtract, ZERO
 
@@ -84,11 +85,12 @@ class Equations:
         """Make boat and sea ready for the force functions, compiled where Numba is installed."""
         self.boat = boat.plain_records[0]
         self.law, self.height = boat.hull.law, boat.hull.height
-        self._hull = hull_view(boat, plain=False)
+        decay = decay_of_waves(boat, sea)
+        self._hull = hull_view(boat, plain=False)._replace(decay=decay)
         self._records = (boat.record[()], self._hull, sea.record[()], sea.table)
         self._load_at = compile_now(load_at, *self._records, ZERO, UPRIGHT, 0.0)
         if self._load_at is load_at:
-            self._hull = hull_view(boat, plain=True)
+            self._hull = hull_view(boat, plain=True)._replace(decay=decay.tolist())
             self._records = (self.boat, self._hull, readable(sea.record), sea.table.tolist())
 
     def _motion(self, time, values):

@@ -37,6 +37,8 @@ FINER = (2, 4)
 # The plain game loop is named only where it saves more than the noise of the clock: it has
 # nothing else for it.
 GAME_LOOP, NOISE = 'symplectic_euler', 1.15
+# What a scene is without that moves a hull in waves; damping is then derived again.
+BARE = {'added_mass': [0.0] * 6, 'wave_force': 'hydrostatic', 'damping.linear': [0.0] * 6}
 
 
 @dataclass(frozen=True)
@@ -45,13 +47,20 @@ class Setting:
     An integrator, its steps per second ``rate`` and, for a hull of a shape, the model of it.
 
     ``probes`` along and across, None = those of the scene; ``panel_size`` m, 0 = chosen by the
-    sea, None = columns.
+    sea, None = columns; ``bare`` leaves out the added mass, damping.linear and wave force that
+    the scene has.
     """
 
     integrator: str
     rate: float
     probes: tuple | None = None
     panel_size: float | None = None
+    bare: bool = False
+
+    @property
+    def choice(self):
+        """Return (probes, panel_size, bare), one of `choices`."""
+        return self.probes, self.panel_size, self.bare
 
     @property
     def probe_count(self):
@@ -68,7 +77,7 @@ class Setting:
     def values(self):
         """Return the parameters as {name: value}."""
         return {'integrator': self.integrator, 'rate': self.rate, 'substeps': 1,
-                **hull_values(self.probes, self.panel_size)}
+                **hull_values(*self.choice)}
 
     def lines(self):
         """Return the lines of a parameter file, groups nested as the shipped files have them."""
@@ -83,7 +92,8 @@ class Setting:
 
     def __str__(self):
         """Return it in a few words."""
-        return ', '.join(filter(None, (f'{self.integrator} {self.rate:g} Hz', self.hull)))
+        return ', '.join(filter(None, (f'{self.integrator} {self.rate:g} Hz', self.hull,
+                                       'no added mass or wave force' if self.bare else '')))
 
     @property
     def hull(self):
@@ -101,11 +111,12 @@ def has_hull(given):
     return 'probes.positions' not in given
 
 
-def hull_values(probes, panel_size=None):
+def hull_values(probes, panel_size=None, bare=False):
     """Return the parameters of a model of the hull, as of `Setting`: {name: value}."""
+    values = dict(BARE) if bare else {}
     if probes is None:
-        return {}
-    values = {'hull.model': 'columns', 'hull.probes': list(probes)}
+        return values
+    values.update({'hull.model': 'columns', 'hull.probes': list(probes)})
     if panel_size is not None:
         values.update({'hull.model': 'panels', 'hull.panel_size': panel_size})
     return values
@@ -118,17 +129,22 @@ def surface_values(probes, panel_size):
 
 def choices(given):
     """
-    Return (probes, panel_size) of all models to choose from, as of `Setting`, the scene's own too.
+    Return (probes, panel_size, bare) of all models to choose from, as of `Setting`, its own too.
 
-    A scene of given probes keeps them.
+    A scene of given probes keeps them.  What a scene in waves has of added mass and wave force
+    is there to leave out.
     """
-    if not has_hull(given):
-        return ((None, None),)
-    own = own_model(given)
-    found = {(probes, None) for probes in (*COLUMNS, own[0])}
-    found |= {(probes, size) for probes in (*PANEL_PROBES, own[0]) for size in panel_sizes(given)}
-    return tuple(sorted({*found, own}, key=lambda model: (model[1] is not None, model[1] or 0.0,
-                                                          model[0][0] * model[0][1], model[0])))
+    found = {own_model(given)}
+    if has_hull(given):
+        (own, *_), = found
+        found |= {(probes, None) for probes in (*COLUMNS, own)}
+        found |= {(probes, size) for probes in (*PANEL_PROBES, own) for size in panel_sizes(given)}
+    found = sorted(found, key=lambda model: (model[1] is not None, model[1] or 0.0,
+                                             math.prod(model[0] or ()), model[0]))
+    scene = scene_from_values(given)
+    moved = scene.boat.follows_waves or scene.boat.added_mass.any()
+    return tuple((*model, bare) for bare in (
+        (True, False) if moved and not scene.sea.is_flat else (False,)) for model in found)
 
 
 def own_model(given):
@@ -149,7 +165,7 @@ def panel_sizes(given):
 
 
 def step_costs(stretch, integrators=INTEGRATORS, repeats=5):
-    """Return {((probes, panel_size), integrator): CPU s of one step}, measured here and now."""
+    """Return {(one of `choices`, integrator): CPU s of one step}, measured here and now."""
     return step_seconds({model: stretch.run(hull_values(*model))
                          for model in choices(stretch.given)}, integrators, repeats=repeats)
 
@@ -162,10 +178,10 @@ def candidates(seconds, rates=RATES):
     """
     found, cheapest = [], {}
     # More probes never cost less; where it looks so, the clock was disturbed.
-    for ((probes, size), integrator), second in reversed(seconds.items()):
-        key = integrator, size
+    for ((probes, *model), integrator), second in reversed(seconds.items()):
+        key = integrator, *model
         cheapest[key] = min(cheapest.get(key, math.inf), second)
-        found += [(rate * cheapest[key], Setting(integrator, rate, probes, size))
+        found += [(rate * cheapest[key], Setting(integrator, rate, probes, *model))
                   for rate in rates]
     return sorted(found, key=lambda pair: (counted(*pair), pair[1].probe_count))
 

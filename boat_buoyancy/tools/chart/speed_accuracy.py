@@ -15,15 +15,12 @@
 """Doing all the work of the chart: errors on two processes, then times on a quiet one."""
 
 from dataclasses import replace
-import multiprocessing
-import os
 from pathlib import Path
-import signal
 
 from . import (hull_accuracy, pareto_front, righting_arm_plot, speed_accuracy_plots as plots,
                summary, table, time_stepping)
+from .processes import results
 
-PROCESSES = 2
 NAME = 'speed_accuracy'
 
 
@@ -69,23 +66,12 @@ def measure_errors(items, quick, progress):
             + [(time_stepping.measured, task) for task in time_stepping.tasks(quick)]
             + [(hull_accuracy.measured, task) for task in hull_accuracy.tasks(quick)])
     rows, found = [], {name: [] for name in items}
-    # Started afresh, not forked: the linear algebra under NumPy may have threads of its own.
-    context = multiprocessing.get_context('spawn')
-    # Ctrl-C reaches the whole group; only the first process has something to say to it.
-    with context.Pool(min(PROCESSES, os.cpu_count() or 1), signal.signal,
-                      (signal.SIGINT, signal.SIG_IGN)) as pool:
-        for number, (task, part) in enumerate(pool.imap(_do, work, chunksize=1)):
-            progress(f'errors: {number + 1} of {len(work)}')
-            if work[number][0] is pareto_front.measured:
-                found[task[0]] += part
-            else:
-                rows += part
+    for function, (name, *_), part in results(work, progress, 'errors'):
+        if function is pareto_front.measured:
+            found[name] += part
+        else:
+            rows += part
     return rows, found
-
-
-def _do(job):
-    function, task = job
-    return task, function(task)
 
 
 def add_times(rows, found, items, quick, progress):

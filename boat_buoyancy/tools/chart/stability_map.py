@@ -15,8 +15,6 @@
 """Where each integrator keeps a boat at rest calm, measured by running it, and as predicted."""
 
 from dataclasses import dataclass
-from pathlib import Path
-import sys
 
 import numpy as np
 
@@ -129,13 +127,6 @@ def predicted_loop_growth(angle, drag):
     root = np.emath.sqrt(trace ** 2 - 4.0 * kept)
     free = np.abs(kept)
     return np.where(angle == 0.0, free, np.maximum(np.abs(trace + root), np.abs(trace - root)) / 2)
-
-
-def shipped_scenes():
-    """Return the parameter files that come with the package, from its source or as installed."""
-    source = Path(__file__).parents[3] / 'config'
-    installed = Path(sys.prefix) / 'share' / 'boat_buoyancy' / 'config'
-    return sorted((source if source.is_dir() else installed).glob('*.yaml'))
 
 
 def scene_points(path):

@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from .stability_map import (loop_growth, measure_map, predicted_loop_growth, RATES,
-                            scene_points, shipped_scenes)
+                            scene_points)
+from ..command_line import shipped_scenes
 
 NAME = 'stability.png'
 # Each integrator's panel: its title, and where to write that it is calm and that it shakes.

@@ -29,7 +29,8 @@ class Row:
     ``panels``; ``grid`` of its probes, as 4x2, and ``panel_size`` m as a parameter file has them;
     ``quantity`` that was compared; ``evaluations`` of the force and ``cpu`` s per simulated
     second; ``position``, ``rotation`` and ``error`` (both in one) m; ``percent`` of the true
-    value; ``front`` 1 on the front of settings that nothing else beats, else 0.
+    value; ``front`` 1 on the front of settings that nothing else beats, else 0; ``parts`` of what
+    moves a hull in waves, as of `fidelity`.
     """
 
     part: str
@@ -49,6 +50,7 @@ class Row:
     error: float = None
     percent: float = None
     front: int = None
+    parts: str = None
 
 
 UNITS = {'rate': 'rate_hz', 'panel_size': 'panel_size_m',

@@ -14,7 +14,7 @@
 
 """What a setting is worth: its motion beside the true one, on one stretch of a scene."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import math
 
 from .accuracy import apart, boat_length, force_evaluations, measure, Run
@@ -57,7 +57,8 @@ class Trial:
     """
     One stretch of a scene with its true motion, on which settings are measured.
 
-    ``truth`` is the motion of the hull itself, or of the probes where no hull is given;
+    ``truth`` is the motion of the hull itself, or of the probes where no hull is given, with the
+    added mass and wave force of the scene: how true those are is for `fidelity` to say;
     ``own_error`` m, how far that truth is from a finer or coarser one, ``compared`` says which.
     """
 
@@ -88,18 +89,17 @@ class Trial:
         return cls(stretch, truth, apart(run, truth, coarser.solve(**options)).total,
                    'the hull as {} panels and as {}'.format(*counts), boat_length(run.boat))
 
-    def run(self, probes, panel_size=None):
-        """Return the `Run` of this stretch with another model of the hull, as of `Setting`."""
-        key = probes, panel_size
-        if key not in self._runs:
-            run = self.stretch.run(hull_values(probes, panel_size))
-            self._runs[key] = Run(str(key), run.boat, run.sea, run.start, run.duration,
-                                  self.length)
-        return self._runs[key]
+    def run(self, *choice):
+        """Return the `Run` of this stretch with another model of the hull, one of `choices`."""
+        if choice not in self._runs:
+            run = self.stretch.run(hull_values(*choice))
+            self._runs[choice] = Run(str(choice), run.boat, run.sea, run.start, run.duration,
+                                     self.length)
+        return self._runs[choice]
 
     def error(self, setting):
         """Return how far a `Setting` is from the truth, in m."""
-        return measure(self.run(setting.probes, setting.panel_size), self.truth,
+        return measure(self.run(*setting.choice), self.truth,
                        setting.integrator, setting.rate).total
 
 
@@ -116,7 +116,7 @@ def present_result(trial, measured):
     setting = Setting(simulation.integrator, simulation.rate * simulation.substeps,
                       *own_model(trial.stretch.given))
     for cpu, other in measured:
-        if Setting(other.integrator, setting.rate, other.probes, other.panel_size) == setting:
+        if replace(other, rate=setting.rate) == setting:
             return result_of(trial, cpu / other.rate * setting.rate, setting)
     return None
 

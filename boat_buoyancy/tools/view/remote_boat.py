@@ -1,0 +1,180 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A boat that a running node floats, seen through its topics and parameters."""
+
+from threading import Event
+import time
+
+from geometry_msgs.msg import WrenchStamped
+from nav_msgs.msg import Odometry
+import numpy as np
+from rcl_interfaces.srv import GetParameters, SetParametersAtomically
+from rclpy.parameter import Parameter, parameter_value_to_python
+from sensor_msgs.msg import PointCloud2
+from std_msgs.msg import Float64MultiArray
+from std_srvs.srv import SetBool, Trigger
+
+from .history import History
+from .loop import Speed
+from .snapshot import Snapshot
+from ...physics.rotation import to_roll_pitch_yaw
+from ...physics.scene.parameter_values import checked
+from ...physics.scene.parameters import NODE_NAME, PARAMETERS
+from ...physics.scene.scene import scene_from_values
+from ...ros import qos
+from ...ros.messages import CLOUD_FIELDS
+from ...ros.parameters import ros_parameter
+
+PATIENCE = 5.0  # s for an answer of the node
+
+
+class RemoteBoat:
+    """
+    One boat.
+
+    Main arguments: ``node`` of ours, which somebody spins; ``namespace`` of the boat's node.
+    Public: ``scene``, made of its parameters, None before they came; ``trouble``, a sentence while
+    something is wrong with it, else None; ``history``; ``paused`` by us; ``begun``, how often its
+    node was met.
+    """
+
+    def __init__(self, node, namespace):
+        """Listen."""
+        self._node, self.namespace = node, namespace
+        self.path = f'{namespace.rstrip("/")}/{NODE_NAME}'
+        self.scene = self.trouble = self._odometry = self._sea = None
+        self.history, self.paused, self.begun = History(), False, 0
+        self._probes = np.zeros((0, len(CLOUD_FIELDS)))
+        self._since = None
+        prefix = namespace.rstrip('/')
+        for kind, topic, take, profile in (
+                (Odometry, 'odom', self._take_odometry, qos.OUTPUT),
+                (PointCloud2, 'probes', self._take_probes, qos.OUTPUT),
+                (Float64MultiArray, 'waves', self._take_waves, qos.SEA_IN_FORCE)):
+            node.create_subscription(kind, f'{prefix}/{topic}', take, profile)
+        self._thrust = node.create_publisher(WrenchStamped, f'{prefix}/thrust', qos.THRUST)
+        self._clients = {name: node.create_client(kind, f'{self.path}/{name}')
+                         for name, kind in (('get_parameters', GetParameters),
+                                            ('set_parameters_atomically', SetParametersAtomically),
+                                            ('reset', Trigger), ('step', Trigger),
+                                            ('set_paused', SetBool))}
+
+    # What it tells.
+
+    def met(self):
+        """Ask a node that came, or came back, for all that is to be known of it."""
+        self.trouble = None
+        self.begun += 1
+        self.look()
+
+    def look(self):
+        """Ask for the parameters, without waiting for them."""
+        request = GetParameters.Request(names=list(PARAMETERS))
+        future = self._clients['get_parameters'].call_async(request)
+        future.add_done_callback(lambda done: self._take_parameters(done.result()))
+
+    def _take_parameters(self, answer):
+        values = {name: parameter_value_to_python(value)
+                  for name, value in zip(PARAMETERS, answer.values)}
+        try:
+            self.scene = scene_from_values({
+                name: value for name, value in values.items() if value is not None}, self.scene)
+            self.trouble = None
+        except ValueError as error:
+            self.trouble = f'{self.path}: {error}'
+
+    def _take_odometry(self, message):
+        self._odometry = message
+        stamp, now = _seconds(message), time.monotonic()
+        pose = message.pose.pose
+        velocity = message.twist.twist.linear
+        if self._since is None or stamp < self._since[1]:
+            self._since = now, stamp
+        if self.history.is_due(stamp):
+            turn = pose.orientation
+            self.history.add(stamp, (pose.position.x, pose.position.y, pose.position.z),
+                             to_roll_pitch_yaw((turn.x, turn.y, turn.z, turn.w)),
+                             (velocity.x, velocity.y, velocity.z))
+
+    def _take_probes(self, message):
+        self._probes = np.frombuffer(bytes(message.data), np.float32).reshape(
+            message.width, len(CLOUD_FIELDS)).astype(float)
+
+    def _take_waves(self, message):
+        self._sea = np.reshape(message.data, (-1, 4))
+
+    @property
+    def speed(self):
+        """Return the `Speed` held since it was met; a step's cost is the node's own affair."""
+        if self._since is None or self._odometry is None:
+            return Speed()
+        passed = time.monotonic() - self._since[0]
+        return Speed(held=(_seconds(self._odometry) - self._since[1]) / max(passed, 1e-9))
+
+    def snapshot(self):
+        """Return the `Snapshot` of what came last; None before enough has come."""
+        scene, message, probes = self.scene, self._odometry, self._probes
+        if scene is None or message is None or len(probes) != len(scene.boat.hull.share):
+            return None
+        sea = scene.sea
+        if self._sea is not None and not np.array_equal(self._sea, sea.waves):
+            sea = type(sea)(self._sea, sea.current, sea.depth, sea.gravity, sea.wind)
+        pose, stamp = message.pose.pose, _seconds(message)
+        place, turn = pose.position, pose.orientation
+        return Snapshot(
+            scene.boat, sea, stamp, stamp, np.array([place.x, place.y, place.z]),
+            np.array([turn.x, turn.y, turn.z, turn.w]), probes[:, 3], probes[:, 4])
+
+    # What it is asked.
+
+    def _answer(self, name, request):
+        """Return what a service of the node answers; ValueError where it does not."""
+        done, future = Event(), self._clients[name].call_async(request)
+        future.add_done_callback(lambda _: done.set())
+        if not done.wait(PATIENCE):
+            self._clients[name].remove_pending_request(future)
+            raise ValueError(f'{self.path} does not answer within {PATIENCE:g} s')
+        return future.result()
+
+    def tune(self, values):
+        """Set parameters {name: value}, None to go back; ValueError with the node's sentence."""
+        asked = [Parameter(name) if value is None else ros_parameter(name, checked(name, value))
+                 for name, value in values.items()]
+        result = self._answer('set_parameters_atomically', SetParametersAtomically.Request(
+            parameters=[one.to_parameter_msg() for one in asked])).result
+        if not result.successful:
+            raise ValueError(result.reason)
+        self.look()
+
+    def push(self, ahead, turn):
+        """Send a wrench, N and N m at the body origin."""
+        message = WrenchStamped()
+        message.wrench.force.x, message.wrench.torque.z = float(ahead), float(turn)
+        self._thrust.publish(message)
+
+    def trigger(self, name):
+        """Call ``reset`` or ``step``; ValueError with what the node says against it."""
+        answer = self._answer(name, Trigger.Request())
+        if not answer.success:
+            raise ValueError(answer.message)
+
+    def pause(self, paused):
+        """Stop or go on."""
+        self._answer('set_paused', SetBool.Request(data=paused))
+        self.paused = paused
+
+
+def _seconds(message):
+    return message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec

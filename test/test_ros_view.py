@@ -1,0 +1,130 @@
+# Copyright 2026 boat_buoyancy maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What buoyancy_view --ros shows of running nodes is what they publish; what it asks is done."""
+
+import signal
+import time
+
+from boat_buoyancy.physics import load_scene
+from boat_buoyancy.tools.view.remote import Remote
+import pytest
+from ros_probe import BoatProcess, new_namespace, Probe
+
+WAVES = {'sea.waves': [0.2, 4.0, 0.3, 1.0], 'boat.mass': 2100.0}
+
+
+def until(condition, seconds=20.0):
+    """Return what a condition gives once it is true; fail after a while."""
+    end = time.monotonic() + seconds
+    while not (result := condition()):
+        assert time.monotonic() < end
+        time.sleep(0.02)
+    return result
+
+
+@pytest.fixture
+def seen():
+    """Give the namespace of a boat, its process and what a page sees of it."""
+    with BoatProcess(WAVES) as boat:
+        remote = Remote(['-r', f'__ns:={boat.namespace}'])
+        try:
+            assert remote.wait(20.0)
+            until(lambda: remote.snapshots)
+            yield boat, remote
+        finally:
+            remote.stop()
+
+
+def test_a_node_is_shown_as_it_is_and_tuned_as_by_ros2_param_set(seen):
+    boat, remote = seen
+    assert remote.name == boat.namespace and remote.fault is None
+    assert remote.scene.boat.mass == 2100.0
+    assert remote.scene.sea.waves.ravel().tolist() == WAVES['sea.waves']
+    with Probe(boat.namespace) as probe:
+        poses, *_ = probe.listen_to_boat()
+        probe.until(lambda: len(poses) > 50)
+        snapshot = next(iter(remote.snapshots.values()))
+        probe.spin(0.5)
+        of_stamp = {pose.header.stamp.sec + 1e-9 * pose.header.stamp.nanosec: pose.pose.position
+                    for pose in poses}
+        place = of_stamp[snapshot.stamp]
+        assert snapshot.position.tolist() == [place.x, place.y, place.z]
+    # Its probes are as deep in its water as the node says: to the single precision of the cloud
+    # and a period or two between the messages, in which the water rises by 0.3 m/s at most.
+    places = snapshot.boat.hull.positions @ snapshot.turn.T + snapshot.position
+    depth = snapshot.water.elevation(*places[:, :2].T, snapshot.time) - places[:, 2]
+    assert snapshot.depths == pytest.approx(depth, abs=0.02)
+
+    remote.tune({'boat.mass': 2500.0})
+    until(lambda: remote.scene.boat.mass == 2500.0)
+    for values, sentence in (
+            ({'rate': 50.0}, 'rate: cannot change while the node runs; start it again with the '
+             'new value'),
+            ({'boat.mass': -1.0}, None)):
+        if sentence is None:
+            with pytest.raises(ValueError) as refusal:
+                load_scene(values)
+            sentence = str(refusal.value)
+        with pytest.raises(ValueError) as refusal:
+            remote.tune(values)
+        assert str(refusal.value) == sentence
+    assert 'mass: 2500.0  # was 2100.0' in remote.text()
+
+
+def test_a_node_is_pushed_paused_stepped_and_reset(seen):
+    _, remote = seen
+    with pytest.raises(ValueError, match='paused'):
+        remote.step()
+    end = time.monotonic() + 20.0
+    while remote.history.columns()[4][-1] < 0.1 or next(
+            iter(remote.snapshots.values())).position[0] < 0.5:
+        remote.push(4000.0, 0.0)
+        assert time.monotonic() < end
+        time.sleep(0.1)
+    remote.pause(True)
+    remote.step()
+    remote.reset()
+    until(lambda: abs(next(iter(remote.snapshots.values())).position[0]) < 0.1)
+    remote.pause(False)
+    for refused in (lambda: remote.lift(1.0), lambda: remote.heel(0.5),
+                    lambda: remote.set_pace(0.5)):
+        with pytest.raises(ValueError, match='a running node'):
+            refused()
+
+
+def test_a_node_that_goes_away_and_comes_back_is_shown_as_such():
+    namespace = new_namespace()
+    with BoatProcess(WAVES, namespace=namespace) as boat:
+        remote = Remote(['-r', f'__ns:={namespace}'])
+        try:
+            assert remote.wait(20.0)
+            until(lambda: remote.snapshots)
+            begun = remote.begun
+            assert boat.end(signal.SIGINT) == 0
+            until(lambda: remote.fault)
+            assert remote.fault == (f'{namespace}/boat_buoyancy is gone; it is shown again when '
+                                    'it comes back')
+            assert remote.snapshots == {}
+            with BoatProcess({**WAVES, 'boat.mass': 1900.0}, namespace=namespace):
+                until(lambda: remote.fault is None and remote.snapshots)
+                until(lambda: remote.scene.boat.mass == 1900.0)
+                assert remote.begun != begun
+        finally:
+            remote.stop()
+
+
+def test_arguments_that_ros_does_not_take_are_refused():
+    with pytest.raises(ValueError, match='^--ros: '):
+        Remote(['-r', 'nonsense'])
