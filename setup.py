@@ -50,8 +50,8 @@ setup(
         'bag': ['rosbags'],
         # The page of buoyancy_view.
         'view': ['viser'],
-        'test': ['hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest', 'pytest-xdist',
-                 'rosbags', 'scipy', 'trimesh'],
+        'test': ['distributed', 'hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest',
+                 'pytest-xdist', 'rosbags', 'scipy', 'trimesh'],
     },
     zip_safe=False,
     maintainer='boat_buoyancy maintainers',

@@ -14,10 +14,16 @@
 
 """What the tests of the command-line programs share: one line for what is wrong, exit code 2."""
 
+import importlib
+import importlib.util
+from pathlib import Path
+import re
+import shlex
 import subprocess
 import sys
 
 # Runs a program where some modules cannot be imported, whether installed or not.
+EXAMPLES = Path(__file__).parents[1] / 'examples'
 WITHOUT = """
 import importlib
 import sys
@@ -52,3 +58,42 @@ def without(hidden, module, words):
     code = WITHOUT.format(path=sys.path, hidden=hidden, module=module, words=list(words))
     return subprocess.run([sys.executable, '-c', code], capture_output=True, text=True,
                           timeout=60)
+
+
+def loaded(name):
+    """Return an example as a module."""
+    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f'{name}.py')
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def console_scripts():
+    """Return {name: (module, function)} of the programs that are installed."""
+    setup = (EXAMPLES.parent / 'setup.py').read_text(encoding='utf-8')
+    return {name: (module, function) for name, module, function in re.findall(
+        r"'(\w+) = ([\w.]+):(\w+)'", setup)}
+
+
+def helpful(name, monkeypatch, capsys):
+    """Hold that a program's help says what it is for, with an example and its exit codes."""
+    module, function = console_scripts()[name]
+    monkeypatch.setattr(sys, 'argv', [name, '--help'])
+    try:
+        code = getattr(importlib.import_module(module), function)()
+    except SystemExit as leaving:
+        code = leaving.code
+    said, wrong = capsys.readouterr()
+    assert code == 0 and wrong == ''
+    usage, *_, last = said.strip().split('\n\n')
+    assert usage.startswith(f'usage: {name} ')
+    example, codes = last.splitlines()[0], ' '.join(last.splitlines()[1:])
+    words = shlex.split(example.removeprefix('Example: '))
+    assert example.startswith(f'Example: {name} ') and words[0] == name
+    before = said[:said.index('Example: ')]
+    for word in words[1:]:
+        assert not word.startswith('--') or word in before, word
+        assert not word.startswith('config/') or (EXAMPLES.parent / word).is_file(), word
+    assert re.match(r'Exit code: 0\b.*; 2 after one line that says what is wrong', codes)
+    # What it is for: between the usage and the arguments, a sentence.
+    assert re.search(r'^[A-Z][^\n]* [a-z][^.]*\.', '\n\n'.join(said.split('\n\n')[1:]), re.M)

@@ -20,8 +20,9 @@ import re
 
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.scene import parameter_file
+from boat_buoyancy.physics.scene.parameter_names import check_names, WORDS
 from boat_buoyancy.physics.scene.parameter_values import checked
-from boat_buoyancy.physics.scene.parameters import check_names, PARAMETERS
+from boat_buoyancy.physics.scene.parameters import PARAMETERS
 import numpy as np
 import pytest
 
@@ -213,6 +214,26 @@ def test_a_misspelt_name_gets_the_nearest_as_a_suggestion():
         with pytest.raises(ValueError) as raised:
             check_names([wrong])
         assert str(raised.value) == f'{wrong}: no such parameter, did you mean {meant}?'
+
+
+def test_another_word_for_a_parameter_gets_the_parameter_as_a_suggestion():
+    for wrong, meant in (
+            ('boat.weight', 'boat.mass'), ('hull.length', 'hull.size'), ('length', 'hull.size'),
+            ('boat.beam', 'hull.size'), ('wave_height', 'sea.significant_height'),
+            ('sea.wave_height', 'sea.significant_height'), ('sea.Hs', 'sea.significant_height'),
+            ('damping.drag', 'damping.linear'), ('probes.buoyancy', 'probes.floatiness'),
+            ('boat.cog', 'boat.center_of_mass'), ('dt', 'rate'), ('wind.speed', 'wind.velocity'),
+            ('hull.draft', 'boat.mass (draft follows from it and the hull)'),
+            # A slip of the finger is nearer than another word.
+            ('probes.weight', 'probes.weights'), ('hull.size_', 'hull.size')):
+        with pytest.raises(ValueError) as raised:
+            check_names([wrong])
+        assert str(raised.value) == f'{wrong}: no such parameter, did you mean {meant}?'
+
+
+def test_every_word_for_a_parameter_stands_for_one_that_exists_and_is_none_itself():
+    assert {meant.partition(' ')[0] for meant in WORDS.values()} <= set(PARAMETERS)
+    assert not set(WORDS) & set(PARAMETERS)
 
 
 def test_a_name_like_no_other_gets_the_list():

@@ -110,7 +110,8 @@ def test_every_scene_has_all_figures_and_only_numbers(path):
         'leapfrog', 'implicit', 'rk4', 'symplectic_euler', 'euler'}
     assert result['gz_heel_deg'] == [5.0 * i for i in range(37)]
     assert len(result['gz_m']) == 37
-    nested = 'handling', 'max_stable_step_s', 'sea', 'warnings', 'gz_heel_deg', 'model_error', 'step'
+    nested = ('handling', 'max_stable_step_s', 'sea', 'warnings', 'gz_heel_deg', 'model_error',
+              'step')
     numbers = [result[key] for key in KEYS if key not in (*nested, 'gz_m', 'gz_exact_m')]
     for value in [*numbers, *result['max_stable_step_s'].values(), *result['gz_m'],
                   *(result['handling'] or {}).values(),

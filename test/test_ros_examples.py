@@ -15,7 +15,6 @@
 """The examples do what they say: controllers that drive the boat, and parameters that fit it."""
 
 import ast
-import importlib.util
 import math
 from pathlib import Path
 import re
@@ -29,6 +28,7 @@ from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, WrenchStamped
 from nav_msgs.msg import Odometry
+from programs import loaded
 import pytest
 from readme import table, TEXT
 from ros_probe import BoatProcess, Probe, ROOT
@@ -57,14 +57,6 @@ class Example:
         if self.process.poll() is None:
             self.process.kill()
         self.process.communicate(timeout=10.0)
-
-
-def loaded(name):
-    """Return an example as a module."""
-    spec = importlib.util.spec_from_file_location(name, EXAMPLES / f'{name}.py')
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def constants(name):

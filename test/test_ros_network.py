@@ -18,7 +18,9 @@ A network that drops: remote hosts in network namespaces, and links that are cut
 Without the right to make namespaces only what needs none is tested (see conftest).
 """
 
+import ast
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -26,7 +28,7 @@ import time
 from boat_buoyancy.ros import figures, network
 from network import BOAT, Network
 import pytest
-from ros_probe import BoatProcess
+from ros_probe import BoatProcess, ROOT
 
 RATE = 100.0
 SUBNET = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'}
@@ -144,6 +146,57 @@ def test_with_sends_that_wait_the_node_stands_still_and_names_publishing():
         voyage.net.forget()
         line = voyage.boat.wait_for_log('fell behind')
         assert 'Publishing is slow' in line and '<non_blocking_send>true' in line
+
+
+ONE_SEA = """
+import sys
+from diagnostic_msgs.msg import DiagnosticArray
+from ros_probe import Probe
+from boat_buoyancy.ros.figures import SEA
+with Probe('/watch') as one:
+    seen, seas = one.listen(DiagnosticArray, '/diagnostics'), {}
+    def both():
+        for status in (status for message in seen for status in message.status):
+            seas[status.hardware_id] = next(
+                item.value for item in status.values if item.key == SEA)
+        return len(seas) == 2
+    one.until(both, timeout=60.0)
+    print(*sorted(seas.items()), sep=chr(10))
+"""
+
+
+@pytest.mark.namespaces
+def test_two_hosts_start_their_boats_in_one_sea():
+    program = [sys.executable, str(ROOT / 'examples' / 'one_sea.py')]
+    environment = {**os.environ, **SUBNET, 'PYTHONPATH': os.pathsep.join(sys.path)}
+    with Network('far') as net:
+        boats = [subprocess.Popen([*net.on(host), *program, boat], env=environment,
+                                  stderr=subprocess.PIPE, text=True)
+                 for host, boat in ((BOAT, 'red'), ('far', 'blue'))]
+        try:
+            # As each of the two hosts has it.
+            for host in (BOAT, 'far'):
+                heard = subprocess.run([*net.on(host), sys.executable, '-c', ONE_SEA],
+                                       cwd=ROOT / 'test', env=environment, text=True,
+                                       capture_output=True, timeout=90.0)
+                blue, red = map(ast.literal_eval, heard.stdout.splitlines())
+                assert (red[0], blue[0]) == ('/red/boat_buoyancy', '/blue/boat_buoyancy')
+                assert red[1] == blue[1] and red[1]
+            for boat in boats:
+                boat.send_signal(signal.SIGINT)
+                assert boat.wait(10.0) == 0
+        finally:
+            for boat in boats:
+                boat.kill()
+                boat.communicate()
+
+
+def test_a_boat_that_is_not_known_is_one_line():
+    for words, got in (([], 'none'), (['green'], 'green')):
+        done = subprocess.run([sys.executable, str(ROOT / 'examples' / 'one_sea.py'), *words],
+                              capture_output=True, text=True)
+        assert (done.returncode, done.stderr) == (
+            2, f'one_sea: expected the name of a boat, red or blue, got {got}\n')
 
 
 def test_our_profile_is_for_those_who_have_chosen_nothing(tmp_path, monkeypatch):

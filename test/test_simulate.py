@@ -25,7 +25,7 @@ from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.boat.state import body_frame, center_of_mass_state
 from boat_buoyancy.physics.rotation import to_roll_pitch_yaw
 from boat_buoyancy.physics.stepping.simulation import periods_of, Simulation
-from boat_buoyancy.tools import (animate, hull_outline, plot, progress, simulate,
+from boat_buoyancy.tools import (animate, compare, hull_outline, plot, progress, simulate,
                                  simulate_text)
 from boats import turned
 import numpy as np
@@ -260,8 +260,64 @@ def test_heading_goes_on_after_a_turn_all_the_way_round():
 def test_title_names_scene_and_thrust(words, said):
     wam_v = str(CONFIG / 'wam_v.yaml')
     arguments = simulate.parser().parse_args([wam_v, '--duration', '1', *words])
-    assert simulate_text.title(arguments, load_scene(wam_v).simulation()) == (
+    assert simulate_text.title(arguments, wam_v, load_scene(wam_v).simulation()) == (
         f'wam_v.yaml: 180 kg, leapfrog at 100 Hz\n{said}')
+
+
+STEPS = sorted(map(str, CONFIG.glob('v*.yaml')))
+SAME = ['--duration', '4', '--waves', '0.25', '4', '0.8', '0', '--thrust', '500', *'00000']
+
+
+def test_scenes_are_compared_under_the_same_push_in_the_same_sea(tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr(simulate.compare, 'write', lambda *given: seen.append(given))
+    assert simulate.main([*STEPS, *SAME, '--compare', str(tmp_path / 'a.png')]) == 0
+    (path, runs, title), = seen
+    assert path == tmp_path / 'a.png' and list(runs) == STEPS and len(STEPS) == 5
+    assert title == 'thrust 500 0 0 N, 0 0 0 N m, body axes; waves of amplitude 0.25 m every 4 s'
+    for run in runs.values():
+        assert run.sea.waves.tolist() == [[0.25, 4.0, 0.8, 0.0]]
+    # Nothing holds or turns the first: 500 N on 1000 kg for 4 s.
+    first = runs[STEPS[0]]
+    assert first.body_velocity[-1, 0] == pytest.approx(2.0, abs=1e-9)
+    assert compare.tilt(first).max() < 1e-3
+    alone = load_scene(load_scene(STEPS[4]).given | {'sea.waves': [0.25, 4.0, 0.8, 0.0]})
+    assert np.array_equal(runs[STEPS[4]].position,
+                          alone.simulation().run(4.0, [500.0, *[0.0] * 5]).position)
+
+
+def test_tilt_is_the_angle_of_the_mast_whatever_the_heading():
+    run = load_scene({'start.orientation': [0.4, -0.3, 2.0]}).simulation().run(0.01)
+    assert compare.tilt(run)[0] == pytest.approx(
+        math.degrees(math.acos(math.cos(0.4) * math.cos(0.3))), abs=1e-9)
+    over = load_scene({'start.orientation': [math.pi, 0.0, 0.0]}).simulation().run(0.01)
+    assert compare.tilt(over)[0] == pytest.approx(180.0, abs=1e-5)
+
+
+def test_the_picture_of_a_comparison_is_written(tmp_path, capsys):
+    path = tmp_path / 'steps.png'
+    assert simulate.main([*STEPS[:2], *SAME, '--compare', str(path)]) == 0
+    assert path.read_bytes().startswith(b'\x89PNG')
+    assert f'wrote    {path}\n' in capsys.readouterr().out
+
+
+def test_waves_replace_the_sea_of_a_scene(tmp_path, capsys):
+    scene = scene_file(tmp_path / 'rough.yaml', {'sea.sea_state': 4, 'sea.depth': 3.0})
+    assert simulate.main([scene, '--duration', '0.1', '--waves', '0.1', '4', '0', '0']) == 0
+    assert '; 1 wave, ' in capsys.readouterr().out
+    assert simulate.scene_of(scene, [0.1, 4.0, 0.0, 0.0]).sea.depth == 3.0
+
+
+@pytest.mark.parametrize('words, said', [
+    ([DEFAULT, BARGE], 'expected one SCENE, got 2; to see several beside each other give '
+     '--compare FILE.png'),
+    ([DEFAULT, '--compare', 'a.png', '--csv', 'a.csv'], '--csv and --compare: expected one of'),
+    ([DEFAULT, '--compare', 'a.gif'], '--compare: expected a file name that ends in .png'),
+    ([DEFAULT, '--waves', '0.1', '4'], 'sea.waves: expected'),
+    ([DEFAULT, DEFAULT, '--compare', 'a.png'], 'is given twice')])
+def test_what_cannot_be_compared_is_one_line(words, said, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert said in refused(capsys, *words, '--duration', '1')
 
 
 def test_animation_has_a_frame_every_eighty_milliseconds_in_real_time(wavy, tmp_path):

@@ -30,7 +30,8 @@ from rclpy.parameter import Parameter
 from ..physics.checks import shown
 from ..physics.scene.changes import changed
 from ..physics.scene.parameter_file import ROS_OWN
-from ..physics.scene.parameters import check_names, PARAMETERS
+from ..physics.scene.parameter_names import check_names
+from ..physics.scene.parameters import PARAMETERS
 from ..physics.scene.scene import scene_from_values
 
 TYPES = {

@@ -34,7 +34,9 @@ from .figures import SEA
 
 PROGRAM = 'same_sea'
 USAGE = (f'usage: {PROGRAM} /red/boat_buoyancy /blue/boat_buoyancy ... [--ros-args ...]\n\n'
-         'Warns when boats, given by the full names of their nodes, are not in one sea.')
+         'Warns when boats, given by the full names of their nodes, are not in one sea.\n\n'
+         f'Example: {PROGRAM} /red/boat_buoyancy /blue/boat_buoyancy\n'
+         'Exit code: 0 when told to end; 2 after one line that says what is wrong.')
 CURE = ('whoever sends waves has to wait for all of them (ros2 topic pub --once -w 2), and to one '
         'that came late those of another are to be sent (-r wave_parameters:=/red/waves)')
 

@@ -33,6 +33,7 @@ from ..physics.stepping.simulation import SimulationError
 # What shapes an irregular sea, and asks for none.
 SHAPES = ('sea.direction', 'sea.spreading', 'sea.components', 'sea.seed')
 
+
 class Session:
     """
     A scene under way.

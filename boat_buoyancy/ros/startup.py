@@ -45,7 +45,9 @@ def parameter_files(arguments):
 USAGE = (f'usage: {PROGRAM} [--ros-args [--params-file FILE] [-p NAME:=VALUE] '
          '[-r __ns:=/NAME] ...]\n\n'
          'Floats one boat: that of a parameter file as config/barge.yaml, or the default one.\n'
-         'config/default.yaml says what every parameter means, as does ros2 param describe.')
+         'config/default.yaml says what every parameter means, as does ros2 param describe.\n\n'
+         f'Example: {PROGRAM} --ros-args --params-file config/barge.yaml\n'
+         'Exit code: 0 when told to end; 2 after one line that says what is wrong.')
 
 
 def folder_of(arguments, name, value):

@@ -27,8 +27,29 @@ from ..physics.stepping.simulation import SimulationError
 NOT_IN_UBUNTU = ('capytaine', 'rosbags', 'viser')
 
 
+EXIT_CODES = 'Exit code: 0; 2 after one line that says what is wrong; 130 when interrupted.'
+
+
+class _Lines(argparse.HelpFormatter):
+    """Fills each line of a text by itself."""
+
+    def _fill_text(self, text, width, indent):
+        return '\n'.join(super(_Lines, self)._fill_text(line, width, indent)
+                         for line in text.splitlines())
+
+
 class OneLineParser(argparse.ArgumentParser):
-    """An argument parser that says what is wrong in one line and ends with exit code 2."""
+    """
+    An argument parser that says what is wrong in one line and ends with exit code 2.
+
+    Its help says what a ``program`` is for (``description``), with one ``example`` of its
+    arguments.
+    """
+
+    def __init__(self, program, description, example):
+        """Take no arguments so far."""
+        super().__init__(prog=program, description=description, formatter_class=_Lines,
+                         epilog=f'Example: {program} {example}\n{EXIT_CODES}')
 
     def error(self, message):
         """Print the message after the program's name and leave."""
@@ -40,10 +61,11 @@ def one_line(message):
     return ' '.join(str(message).split())
 
 
-def scene_parser(program, description):
-    """Return a parser that takes one parameter file, as ``scene``; add options to it."""
-    parser = OneLineParser(prog=program, description=description)
-    parser.add_argument('scene', metavar='SCENE',
+def scene_parser(program, description, example, many=False):
+    """Return a parser that takes a parameter file as ``scene``, or many as ``scenes``."""
+    parser = OneLineParser(program, description, example)
+    parser.add_argument(*(['scenes'] if many else ['scene']), metavar='SCENE',
+                        **({'nargs': '+'} if many else {}),
                         help='parameter file of the boat and its sea, as config/barge.yaml')
     return parser
 

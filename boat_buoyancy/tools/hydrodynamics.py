@@ -126,9 +126,7 @@ def main(arguments=None):
     """Run the program and return its exit code."""
     parser = command_line.scene_parser(
         PROGRAM, 'Print added mass and damping of a boat as parameters to paste, with the natural '
-        'periods that it has without and with them. Example: '
-        f'{PROGRAM} config/barge.yaml --bem. Exit code: 0; 2 with one line that says what is '
-        'wrong; 130 when interrupted.')
+        'periods that it has without and with them.', 'config/barge.yaml --bem')
     parser.add_argument('--bem', action='store_true',
                         help='by a boundary element method, capytaine, within a minute or so; '
                         'else by strips, within a second')

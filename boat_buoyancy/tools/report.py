@@ -180,7 +180,9 @@ def _numbers(arms):
 
 def main(arguments=None):
     """Run the program and return its exit code."""
-    parser = command_line.scene_parser(PROGRAM, 'Print what a boat will do before it does it.')
+    parser = command_line.scene_parser(PROGRAM, (
+        'Print what a boat will do before it does it: how it lies at rest, how stable it is, its '
+        'periods, how fast a push makes it, and warnings.'), 'config/barge.yaml --plot gz.png')
     parser.add_argument('--json', action='store_true', help='print JSON, for programs')
     parser.add_argument('--thrust', metavar='N', type=float,
                         help='push ahead in N that the boat is to answer; without it all that its '

@@ -16,7 +16,7 @@
 Run a boat and write down what it does: ``buoyancy_simulate SCENE --duration S [...]``.
 
 A table (CSV), a plot, an animation and a recording (MCAP) of its motion, as asked for, and a
-summary.
+summary; or several scenes under one another in one plot.
 """
 
 import argparse
@@ -27,10 +27,11 @@ from time import perf_counter
 
 import numpy as np
 
-from . import animate, command_line, plot, recording, simulate_text
+from . import animate, command_line, compare, plot, recording, simulate_text
 from .progress import Progress
 from ..physics import checks, load_scene
 from ..physics.compiled import notice
+from ..physics.scene.parameters import WAVE_KINDS
 from ..physics.stepping.integrators import INTEGRATORS
 from ..physics.stepping.march import march_by
 
@@ -44,7 +45,8 @@ def parser():
     """Return the parser of the program's arguments."""
     arguments = command_line.scene_parser(
         PROGRAM, 'Run a boat without ROS and write down its motion: body frame in the world, '
-        'twist in body axes, depth of every probe.')
+        'twist in body axes, depth of every probe.',
+        'config/waves.yaml --duration 20 --plot run.png', many=True)
     option = arguments.add_argument
     option('--duration', metavar='S', type=float, required=True, help='simulated time, s')
     option('--csv', metavar='FILE', type=Path, help='table, one row per period from time 0')
@@ -54,12 +56,16 @@ def parser():
            help='heave, attitude, speed and probe depths over time (.png, .pdf or .svg)')
     option('--animate', metavar='FILE.gif', type=Path,
            help='the boat on its water, from the side and from above')
+    option('--compare', metavar='FILE.png', type=Path,
+           help='heave, tilt and speed of several scenes, one under the other')
     option('--mcap', metavar='FILE.mcap', type=Path,
            help='what the node would publish, for Foxglove and ros2 bag play')
     option('--thrust', metavar=THRUST, type=float, nargs=6, default=[0.0] * 6,
            help='constant push, N and N m, body axes, at the body origin')
     option('--thruster', metavar='NAME=N', action='append', default=[],
            help='constant thrust of a thruster of the scene, N; once for each')
+    option('--waves', metavar='NUMBER', type=float, nargs='+',
+           help="sea.waves, instead of the scene's sea: four numbers a wave")
     option('--rate', metavar='HZ', type=float, help="periods per second, instead of the scene's")
     option('--integrator', metavar='NAME', help="integrator, instead of the scene's")
     option('--substeps', metavar='N', type=int,
@@ -97,13 +103,33 @@ def push_of(scene, simulation, arguments):
     return lambda time, state: np.add(arguments.thrust, propulsion.wrench(simulation, commands))
 
 
+def scene_of(path, waves):
+    """Return the scene of a file, on ``waves``, rows in one flat list, where they are not None."""
+    scene = load_scene(path)
+    if waves is None:
+        return scene
+    kept = {name: value for name, value in scene.given.items()
+            if not any(name in kind for kind in WAVE_KINDS)}
+    return load_scene(kept | {'sea.waves': waves})
+
+
 def check_outputs(arguments):
     """Raise ValueError or OSError now for what could not be written after the run."""
+    others = [f'--{name}' for name in ('csv', 'plot', 'animate', 'mcap')
+              if getattr(arguments, name) is not None]
+    if arguments.compare is not None and others:
+        raise ValueError(f'{others[0]} and --compare: expected one of them')
+    if len({*arguments.scenes}) < len(arguments.scenes):
+        raise ValueError('expected each SCENE once, one is given twice')
+    if arguments.compare is None and len(arguments.scenes) > 1:
+        raise ValueError(f'expected one SCENE, got {len(arguments.scenes)}; to see several beside '
+                         'each other give --compare FILE.png')
     checks.count('--every', arguments.every, at_least=1)
     if arguments.every > 1 and arguments.csv is None:
         raise ValueError('--every: it thins the table, and none is asked for; give --csv FILE')
     for name, path, *how in (
             ('--plot', arguments.plot, plot.ENDINGS),
+            ('--compare', arguments.compare, plot.ENDINGS),
             ('--animate', arguments.animate, animate.ENDINGS),
             ('--mcap', arguments.mcap, recording.ENDINGS, 'bag', 'rosbags')):
         if path is not None:
@@ -114,22 +140,26 @@ def check_outputs(arguments):
 
 def work(arguments):
     """Do what the arguments ask for; ValueError, OSError, SimulationError for bad input."""
-    scene = load_scene(arguments.scene)
     check_outputs(arguments)
-    integrator = arguments.integrator or scene.integrator
-    if integrator in INTEGRATORS and (compiling := notice(march_by(integrator))):
-        print(f'{PROGRAM}: {compiling}', file=sys.stderr)
-    simulation = scene.simulation(integrator=arguments.integrator, rate=arguments.rate,
-                                  substeps=arguments.substeps)
-    progress = Progress(sys.stderr, after=PATIENCE, every=0.1)
+    scenes = {path: scene_of(path, arguments.waves) for path in arguments.scenes}
+    runs, progress = {}, Progress(sys.stderr, after=PATIENCE, every=0.1)
     try:
-        run_and_write(arguments, scene, simulation, progress)
+        for path, scene in scenes.items():
+            integrator = arguments.integrator or scene.integrator
+            if integrator in INTEGRATORS and (compiling := notice(march_by(integrator))):
+                print(f'{PROGRAM}: {compiling}', file=sys.stderr)
+            simulation = scene.simulation(integrator=arguments.integrator, rate=arguments.rate,
+                                          substeps=arguments.substeps)
+            runs[path] = run_and_write(arguments, path, scene, simulation, progress)
+        if arguments.compare is not None:
+            compare.write(arguments.compare, runs, simulate_text.compared(arguments))
+            print(f'wrote    {arguments.compare}')
     finally:
         progress.clear()
 
 
-def run_and_write(arguments, scene, simulation, progress):
-    """Run a simulation and write what the arguments ask for; ``progress`` takes a text."""
+def run_and_write(arguments, path, scene, simulation, progress):
+    """Return the run of a scene's file, after writing what is asked; ``progress`` takes a text."""
     thrust = push_of(scene, simulation, arguments)
 
     def told(time):
@@ -142,28 +172,29 @@ def run_and_write(arguments, scene, simulation, progress):
     seconds = perf_counter() - start
     # With thrusters, what they have come to.
     steady = thrust(simulation.time, simulation.state) if callable(thrust) else thrust
-    heading = simulate_text.title(arguments, simulation)
+    heading = simulate_text.title(arguments, path, simulation)
     progress.clear()
-    for line in simulate_text.summary(arguments, simulation, run, seconds):
+    for line in simulate_text.summary(arguments, path, simulation, run, seconds):
         print(line, flush=True)
-    for path, write in (
+    for file, write in (
             (arguments.csv, run.every(arguments.every).to_csv),
-            (arguments.plot, lambda path: plot.write(path, run, heading)),
-            (arguments.animate, lambda path: animate.write(
-                path, run, simulation, heading, steady, progress))):
-        if path is not None:
-            progress(f'writing {path}')
+            (arguments.plot, lambda file: plot.write(file, run, heading)),
+            (arguments.animate, lambda file: animate.write(
+                file, run, simulation, heading, steady, progress))):
+        if file is not None:
+            progress(f'writing {file}')
             try:
-                write(path)
+                write(file)
             except BaseException:
                 # Half of it would be taken for the whole.
-                if path.is_file() and not path.is_symlink():
-                    path.unlink()
+                if file.is_file() and not file.is_symlink():
+                    file.unlink()
                 raise
             progress.clear()
-            print(f'wrote    {path}', flush=True)
+            print(f'wrote    {file}', flush=True)
     if arguments.mcap is not None:
         print(f'wrote    {arguments.mcap}')
+    return run
 
 
 def main(argv=None):

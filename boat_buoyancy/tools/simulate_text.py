@@ -28,19 +28,25 @@ def pushes(arguments):
         yield 'thruster', f'{", ".join(arguments.thruster)} N'
 
 
-def title(arguments, simulation):
+def title(arguments, path, simulation):
     """Return the title of a picture: scene, boat and steps, and what pushes."""
-    pushed = ', '.join(f'{name} {numbers}' for name, numbers in pushes(arguments))
-    return (f'{Path(arguments.scene).name}: {simulation.boat.mass:g} kg, {simulation.integrator} '
-            f'at {simulation.rate:g} Hz\n{pushed or "no thrust"}')
+    return (f'{Path(path).name}: {simulation.boat.mass:g} kg, {simulation.integrator} '
+            f'at {simulation.rate:g} Hz\n{_pushed(arguments)}')
 
 
-def summary(arguments, simulation, run, seconds):
+def compared(arguments):
+    """Return the title of a picture of several scenes: what pushes, and the waves."""
+    rows = zip(*[iter(arguments.waves or ())] * 4)
+    waves = ', '.join(f'{height:g} m every {period:g} s' for height, period, *_ in rows)
+    return _pushed(arguments) + (f'; waves of amplitude {waves}' if waves else '')
+
+
+def summary(arguments, path, simulation, run, seconds):
     """
     Return what was run and what came of it, as lines.
 
-    ``arguments`` of the program; ``simulation`` at its end and ``run``, its `Trajectory`;
-    ``seconds`` of wall time that the run took.
+    ``arguments`` of the program; ``path`` of the scene; ``simulation`` at its end and ``run``, its
+    `Trajectory`; ``seconds`` of wall time that the run took.
     """
     boat, sea, steps = simulation.boat, simulation.sea, simulation.steps * simulation.substeps
     # Rounded, and without the sign of a zero.
@@ -49,7 +55,7 @@ def summary(arguments, simulation, run, seconds):
     heave = np.round(run.position[:, 2], 3) + 0.0
     speed = np.linalg.norm(run.body_velocity, axis=1)
     count, depths = len(boat.hull.positions), run.probe_depths
-    yield (f'{arguments.scene}: {run.time[-1]:g} s at {simulation.rate:g} Hz, '
+    yield (f'{path}: {run.time[-1]:g} s at {simulation.rate:g} Hz, '
            f'{simulation.integrator}, {_count(simulation.substeps, "step")} per period')
     law = f', law {boat.hull.law}' if boat.hull.panels is None else ''
     yield (f'boat     {boat.mass:g} kg on {boat.hull.carriers}{law}; '
@@ -67,6 +73,10 @@ def summary(arguments, simulation, run, seconds):
     yield (f'cost     {steps} steps in {seconds:.3g} s: {steps / seconds:.4g} steps/s, '
            f'{run.time[-1] / seconds:.3g} times real time'
            f'{"" if arguments.mcap is None else ", recorded as they went"}')
+
+
+def _pushed(arguments):
+    return ', '.join(f'{name} {numbers}' for name, numbers in pushes(arguments)) or 'no thrust'
 
 
 def _count(number, noun):

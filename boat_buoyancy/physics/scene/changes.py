@@ -14,7 +14,8 @@
 
 """What is given after some parameters were changed while a boat runs."""
 
-from .parameters import check_names, WAVE_KINDS
+from .parameter_names import check_names
+from .parameters import WAVE_KINDS
 
 # Parameters that ask for waves; the rest of sea.* only shapes them.
 WAVES = frozenset(name for kind in WAVE_KINDS for name in kind)

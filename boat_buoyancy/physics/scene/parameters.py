@@ -20,7 +20,6 @@ The node declares its parameters from it, `load_scene` checks files against it, 
 """
 
 from dataclasses import dataclass
-import difflib
 
 from ..boat.hull import LAWS
 from ..boat.shapes import SHAPES
@@ -342,17 +341,3 @@ def _table():
 
 
 PARAMETERS = {parameter.name: parameter for parameter in _table()}
-
-
-def check_names(names):
-    """Raise ValueError for the first name that is no parameter, with the nearest that is."""
-    for name in names:
-        if name in PARAMETERS:
-            continue
-        last = {known.rpartition('.')[2]: known for known in PARAMETERS}
-        near = (difflib.get_close_matches(str(name), PARAMETERS, 1)
-                or [last[match] for match in difflib.get_close_matches(
-                    str(name).rpartition('.')[2], last, 1)])
-        raise ValueError(f'{name}: no such parameter'
-                         + (f', did you mean {near[0]}?' if near else
-                            f'; expected one of {", ".join(PARAMETERS)}'))

@@ -23,6 +23,7 @@ import numpy as np
 from . import parameter_file, parameters
 from .build import (AHEAD, assembled_boat, assembled_sea, assembled_start, assembled_thrusters,
                     gives_drag, MADE_OF, NO_LIMITS, RETENTION, start_attitude)
+from .parameter_names import check_names
 from .parameter_values import checked
 from .parameters_together import check_together, PROBES_ONLY, remarks, without_use
 from ..boat.boat import Boat
@@ -161,7 +162,7 @@ def scene_from_values(values, before=None, folder='.'):
     ``folder``, the one that paths start from.  ValueError as in `load_scene`.
     """
     values = {name: value for name, value in values.items() if value is not None}
-    parameters.check_names(values)
+    check_names(values)
     given = {name: checked(name, value) for name, value in values.items()}
     if 'hull.mesh' in given:
         # Absolute, so that what is in force makes the same boat from anywhere.

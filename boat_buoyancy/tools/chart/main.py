@@ -38,7 +38,8 @@ DESCRIPTION = (
 
 def parser():
     """Return the argument parser."""
-    made = command_line.OneLineParser(prog=PROGRAM, description=DESCRIPTION)
+    made = command_line.OneLineParser(
+        PROGRAM, DESCRIPTION, 'config/barge.yaml --tolerance 0.01')
     made.add_argument('scenes', metavar='SCENE', nargs='*',
                       help='parameter file, as config/barge.yaml; without --tolerance the '
                            'scene of the third picture')

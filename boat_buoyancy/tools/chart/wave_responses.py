@@ -92,7 +92,8 @@ def _rounded(value):
 
 def main(arguments=None):
     """Run the program and return its exit code."""
-    parser = command_line.scene_parser(PROGRAM, __doc__.strip().splitlines()[0])
+    parser = command_line.scene_parser(PROGRAM, __doc__.strip().splitlines()[0],
+                                       'config/barge.yaml barge.json')
     parser.add_argument('file', metavar='FILE.json', type=Path, help='where the table goes')
     given = parser.parse_args(arguments)
 

@@ -37,8 +37,8 @@ PROGRAM, HOST, PORT = 'buoyancy_view', '127.0.0.1', 8080
 def parser():
     """Return the parser of the program's arguments."""
     arguments = command_line.OneLineParser(
-        prog=PROGRAM, description='Tune a boat while it floats: a page with the boat on its water '
-        'and its knobs beside it. Ctrl-C ends it.')
+        PROGRAM, 'Tune a boat while it floats: a page with the boat on its water and its knobs '
+        'beside it. Ctrl-C ends it.', 'config/waves.yaml --port 8090')
     option = arguments.add_argument
     option('scene', metavar='SCENE', nargs='?',
            help='parameter file of the boat and its sea, as config/barge.yaml')
