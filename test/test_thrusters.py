@@ -58,7 +58,8 @@ def test_a_hundred_newton_more_on_one_side_turns_to_the_other(stronger, sign):
     run = driven(scene, 60.0, commands)
     # At the end 100 N on an arm of 1.027135 m and the moment of Munk, (M v) x v of the added mass,
     # against 800 r + 800 r^2; its drag acts at the centre of mass and turns it by nothing.
-    ahead, abeam, _ = run.body_velocity[-1]
+    ahead, abeam, _ = run.body_velocity[-1] + np.cross(
+        run.angular_velocity[-1], scene.boat.center_of_mass)
     ahead_mass, abeam_mass, *_ = scene.boat.added_mass
     torque = 100.0 * 1.027135 + sign * (ahead_mass - abeam_mass) * ahead * abeam
     rate = (-1.0 + math.sqrt(1.0 + 4.0 * torque / 800.0)) / 2.0

@@ -184,3 +184,22 @@ def test_probes_given_one_by_one_want_a_neighbour_within_half_a_wave(apart, fine
 
 def test_a_single_probe_has_no_neighbour():
     assert told({'probes.positions': [0.0, 0.0, 0.0], **SHORT}) == []
+
+
+def test_added_mass_alone_is_warned_of_in_waves_and_nothing_else_is():
+    waves = {'sea.waves': [0.1, 4.0, 0.0, 0.0]}
+    added = {'added_mass': [200.0, 600.0, 2000.0, 300.0, 1500.0, 800.0]}
+    follows = {'wave_force': 'froude_krylov'}
+    for given, said in ((added, False), ({**added, **waves}, True), ({**follows, **waves}, False),
+                        ({**added, **follows, **waves}, False)):
+        warnings = ' '.join(load_scene(given).warnings)
+        assert ('give wave_force: froude_krylov' in warnings) == said
+
+
+def test_waves_that_do_not_reach_down_to_a_hull_need_no_probes():
+    # 1.5 s waves of 3.5 m on a barge of 20 m that is 1.5 m deep: e^-kd is 0.07.
+    barge = {'hull.size': [20.0, 6.0, 3.0], 'boat.mass': 184500.0, 'hull.probes': [6, 3],
+             'sea.waves': [0.3, 6.0, 0.0, 0.0, 0.1, 1.5, 0.0, 0.0]}
+    assert any('too far apart' in line for line in load_scene(barge).warnings)
+    deep = load_scene({**barge, 'wave_force': 'froude_krylov'})
+    assert not any('too far apart' in line for line in deep.warnings)
