@@ -60,12 +60,12 @@ def test_the_readme_is_short():
 
 def passages(text):
     """Return the sentences and the rows of tables that are too long to be equal by chance."""
-    plain = prose(text)
-    rows = re.findall(r'^\|.*$', plain, re.MULTILINE)
-    rest = ' '.join(re.sub(r'^\|.*$', '', plain, flags=re.MULTILINE).split())
-    sentences = re.split(r'(?<=[.:?])\s', rest)
-    return {passage for passage in (*rows, *sentences)
-            if len(passage) > 60 and not passage.startswith('![')}
+    found = set()
+    for paragraph in re.split(r'\n{2,}', re.sub(r'^(#.*|!\[.*)$', '', prose(text),
+                                               flags=re.MULTILINE)):
+        rows = re.findall(r'^\|.*$', paragraph, re.MULTILINE)
+        found |= set(rows or re.split(r'(?<=[.?])\s', ' '.join(paragraph.split())))
+    return {passage for passage in found if len(passage) > 50}
 
 
 def test_no_sentence_stands_on_two_pages():
