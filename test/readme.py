@@ -12,19 +12,40 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the README says, taken apart for the tests that hold it against the code."""
+"""What the pages say, taken apart for the tests that hold them against the code."""
 
 from pathlib import Path
 import re
 
 ROOT = Path(__file__).parents[1]
-TEXT = (ROOT / 'README.md').read_text()
+# The text of every page by its path.
+PAGES = {path: path.read_text(encoding='utf-8') for path in (
+    ROOT / 'README.md', ROOT / 'CONTRIBUTING.md', *sorted((ROOT / 'doc').glob('*.md')))}
+README = PAGES[ROOT / 'README.md']
+TEXT = '\n'.join(PAGES.values())
+
+
+def page(name):
+    """Return the text of a page of doc/."""
+    return PAGES[ROOT / 'doc' / name]
+
+
+def prose(text):
+    """Return a text without its fenced blocks."""
+    return re.sub(r'^```.*?^```$', '', text, flags=re.MULTILINE | re.DOTALL)
+
+
+def headings(text):
+    """Return the headings of a text as (level, title)."""
+    return [(len(marks), title)
+            for marks, title in re.findall(r'^(#+) (.*)$', prose(text), re.MULTILINE)]
 
 
 def section(title):
     """Return the text under a heading, up to the next of the same or a higher level."""
+    text, = (text for text in PAGES.values() if title in dict(map(reversed, headings(text))))
     inside, level, fenced = [], 0, False
-    for line in TEXT.splitlines(keepends=True):
+    for line in text.splitlines(keepends=True):
         fenced ^= line.startswith('```')
         heading = None if fenced else re.match(r'(#+) (.*)$', line)
         if heading and level and len(heading[1]) <= level:
@@ -33,7 +54,6 @@ def section(title):
             level = len(heading[1])
         elif level:
             inside.append(line)
-    assert inside, f'the README has no heading {title!r}'
     return ''.join(inside)
 
 
@@ -45,9 +65,9 @@ def table(title):
     return rows[2:]
 
 
-def blocks(language):
+def blocks(language, text=TEXT):
     """Return the fenced blocks of a language."""
-    return re.findall(rf'^```{language}\n(.*?)^```$', TEXT, re.MULTILINE | re.DOTALL)
+    return re.findall(rf'^```{language}\n(.*?)^```$', text, re.MULTILINE | re.DOTALL)
 
 
 def commands():

@@ -160,7 +160,7 @@ def test_plain_python_is_measured_in_a_process_of_its_own():
 def test_quick_speed_writes_text_table_and_picture(capfd, tmp_path):
     assert main(['--speed', '--quick', '--out', str(tmp_path)]) == 0
     captured = capfd.readouterr()
-    assert (tmp_path / 'speed.md').read_text() + '\n' == captured.out
+    assert (tmp_path / 'step_speed.md').read_text() + '\n' == captured.out
     assert '## Ratios' in captured.out
     assert captured.err.count('round 3 of 3') == 2
     with open(tmp_path / 'speed.csv', encoding='utf-8') as file:

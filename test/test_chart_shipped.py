@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The chart that is shipped in doc/ says what the README says of it."""
+"""The chart that is shipped in doc/ says what doc/accuracy.md says of it."""
 
 import math
 from pathlib import Path
@@ -48,7 +48,7 @@ def test_the_plain_game_loop_is_ahead_nowhere_but_where_its_cheaper_step_makes_u
     for scene in SCENES:
         ranked = ranking(rows, scene.name, 'cpu')
         assert ranked['leapfrog'] < ranked['symplectic_euler']
-    # The README says that they are level there: a tenth of each other.
+    # doc/accuracy.md says that they are level there: a tenth of each other.
     ranked = ranking(rows, 'stiff barge in swell', 'cpu')
     assert ranked['symplectic_euler'] == pytest.approx(ranked['leapfrog'], rel=0.1)
 

@@ -12,77 +12,158 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The README is a promise: what it names exists, and what it shows is what one gets."""
+"""The pages are a promise: what they name exists, and what they show is what one gets."""
 
 import contextlib
+from importlib import import_module
 import io
+import math
 import re
 import runpy
 import shlex
 
 from boat_buoyancy.physics import load_scene
+from boat_buoyancy.physics.scene import parameter_file
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from boat_buoyancy.physics.step_size.plan import MAX_SUBSTEPS
-from boat_buoyancy.tools import hydrodynamics, report, simulate
+from boat_buoyancy.tools import parameter_table
 from boat_buoyancy.tools.chart import fidelity_text
-from boat_buoyancy.tools.chart.main import main as chart
 from boat_buoyancy.tools.chart.stability_map import predicted_loop_growth
 from boat_buoyancy.tools.chart.table import read
-from boat_buoyancy.tools.view.main import main as view
+from programs import console_scripts
 import pytest
-from readme import blocks, commands, ROOT, section, table, TEXT
+from readme import (blocks, commands, headings, page, PAGES, prose, README, ROOT, section, table,
+                    TEXT)
+from test_house import FLOORS, FOUNDATIONS
+import yaml
 
 PLAIN = 'the step is plain Python, some fifty times slower'
-TOOLS = {'buoyancy_report': report.main, 'buoyancy_simulate': simulate.main,
-         'buoyancy_chart': chart, 'buoyancy_hydrodynamics': hydrodynamics.main,
-         'buoyancy_view': view}
+# The programs that need no ROS, by name: their modules.
+TOOLS = {name: module for name, (module, _) in console_scripts().items() if '.tools.' in module}
 TOPIC_TYPES = {name: kind for name, kind, *_ in table('Topics')}
 SERVICE_TYPES = {name: kind for name, kind, *_ in table('Services')}
 
 
-def shown(value):
-    """Return a default as the README writes it."""
-    if value is None:
-        return '–'
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, tuple):
-        return '[' + ', '.join(map(shown, value)) + ']'
-    return str(value)
+def program(name):
+    """Return the main function of a program."""
+    return import_module(TOOLS[name]).main
 
 
-def test_the_parameter_table_is_that_of_the_code():
+def test_the_readme_is_short():
+    lines = README.splitlines()
+    assert len(lines) <= 200
+    # Short in characters, too: a line is 120 of them, or one sentence, link or row of a table.
+    for line in lines:
+        one_sentence = len(re.findall(r'[.:;] (?=[A-Z])', line)) == 0
+        assert len(line) <= 120 or line.startswith(('|', '[INFO]')) or one_sentence, line
+
+
+def passages(text):
+    """Return the sentences and the rows of tables that are too long to be equal by chance."""
+    found = set()
+    for paragraph in re.split(r'\n{2,}', re.sub(r'^(#.*|!\[.*)$', '', prose(text),
+                                               flags=re.MULTILINE)):
+        rows = re.findall(r'^\|.*$', paragraph, re.MULTILINE)
+        found |= set(rows or re.split(r'(?<=[.?])\s', ' '.join(paragraph.split())))
+    return {passage for passage in found if len(passage) > 50}
+
+
+def test_no_sentence_stands_on_two_pages():
+    seen = {}
+    for path, text in PAGES.items():
+        for passage in passages(text):
+            assert passage not in seen, f'{path.name} and {seen[passage].name}: {passage}'
+            seen[passage] = path
+    assert len(seen) > 200
+
+
+def test_every_link_leads_somewhere():
+    anchors = {path: [re.sub(r'[^\w -]', '', title.lower()).replace(' ', '-')
+                      for _, title in headings(text)] for path, text in PAGES.items()}
+    count = 0
+    for path, text in PAGES.items():
+        for link in re.findall(r'\]\(([^)]*)\)', prose(text)):
+            name, _, anchor = link.partition('#')
+            target = (path.parent / name).resolve() if name else path
+            assert target.is_file(), f'{path.name}: {link}'
+            assert not anchor or anchor in anchors[target], f'{path.name}: {link}'
+            count += 1
+    assert count > 50
+
+
+def test_every_page_is_reached_from_the_readme():
+    found, left = set(), [ROOT / 'README.md']
+    while left:
+        path = left.pop()
+        if path in found or path not in PAGES:
+            continue
+        found.add(path)
+        left += [(path.parent / name).resolve()
+                 for name in re.findall(r'\]\(([^)#]+)[^)]*\)', prose(PAGES[path]))]
+    assert found == set(PAGES)
+
+
+def test_the_page_of_parameters_is_that_of_the_code():
+    assert page('parameters.md') == parameter_table.page()
+
+
+def test_the_page_of_parameters_has_every_limit_and_choice():
+    # What the generator shows, read back and compared with the table itself.
     rows = {row[0].removesuffix(' ◦'): row for row in table('Parameters')}
     assert list(rows) == list(PARAMETERS)
     for name, parameter in PARAMETERS.items():
         mark, default, unit, limits, meaning = rows[name]
         assert mark.endswith('◦') is not parameter.read_only, name
-        assert (default, unit, meaning) == (
-            shown(parameter.default), parameter.unit, parameter.description), name
+        assert (unit, meaning) == (parameter.unit, parameter.description), name
+        if isinstance(parameter.default, str):
+            assert default == parameter.default, name
+        else:
+            shown = yaml.safe_load(default) if default != '–' else None
+            assert shown == (list(parameter.default) if isinstance(parameter.default, tuple)
+                             else parameter.default), name
         for limit in (parameter.above, parameter.at_least, parameter.at_most):
             assert limit is None or f'{limit:g}' in limits, name
         assert all(choice in limits for choice in parameter.choices), name
 
 
 def test_every_scene_that_ships_is_in_the_table_and_loads():
-    rows = [row[0] for row in table('Scenes that ship')]
+    rows = [row[0] for row in table('Start from a scene')]
     assert sorted(rows) == sorted(path.name for path in (ROOT / 'config').glob('*.yaml'))
     for name in rows:
         load_scene(ROOT / 'config' / name)
 
 
-def test_every_parameter_and_file_named_exists():
+def test_every_parameter_named_exists():
     prefixes = {name.partition('.')[0] for name in PARAMETERS if '.' in name}
     dotted = re.findall(r'`([a-z_]+\.[a-z_]+)(?::[^`]*)?`', TEXT)
     named = {word for word in dotted if word.partition('.')[0] in prefixes}
     assert len(named) > 10
     assert named <= set(PARAMETERS)
-    for link in re.findall(r'\]\(([^)#][^)]*)\)', TEXT):
-        assert (ROOT / link).is_file(), link
-    for anchor in re.findall(r'\]\(#([^)]*)\)', TEXT):
-        headings = [re.sub(r'[^a-z0-9 -]', '', heading.lower()).replace(' ', '-')
-                    for heading in re.findall(r'^#+ (.*)$', TEXT, re.MULTILINE)]
-        assert anchor in headings, anchor
+
+
+def test_every_parameter_file_shown_loads(tmp_path):
+    (tmp_path / 'hulls').symlink_to(ROOT / 'config' / 'hulls')
+    shown = blocks('yaml')
+    assert len(shown) >= 2
+    for text in shown:
+        path = tmp_path / 'scene.yaml'
+        path.write_text(text)
+        load_scene(path)
+
+
+def test_the_first_run_moves():
+    command, = (command for command in commands() if '-p wind' in command)
+    words = shlex.split(command)
+    values = parameter_file.read(ROOT / words[words.index('--params-file') + 1])
+    for word in words[words.index('-p') + 1::2]:
+        name, _, value = word.partition(':=')
+        values[name] = yaml.safe_load(value)
+    run = load_scene(values).simulation().run(5.0)
+    start, end = run.position[0], run.position[-1]
+    # It starts at rest; in five seconds it has gone its own length and turned by ten degrees.
+    assert run.body_velocity[0].tolist() == [0.0, 0.0, 0.0]
+    assert max(abs(end - start)[:2]) > 3.0 and abs(run.yaw[-1] - run.yaw[0]) > 0.17
+    assert abs(run.pitch).max() > 0.05
 
 
 def test_every_topic_service_and_parameter_in_a_ros2_command_exists():
@@ -116,64 +197,120 @@ def test_every_topic_service_and_parameter_in_a_ros2_command_exists():
     assert seen > 8
 
 
-@pytest.mark.parametrize('command', [c for c in commands() if c.startswith('buoyancy_')])
+def test_what_is_at_a_glance_is_in_the_tables():
+    for name, kind, said in table('Topics and services at a glance'):
+        known = SERVICE_TYPES if name.startswith('~') else TOPIC_TYPES
+        assert known[name] == kind
+        if not name.startswith('~'):
+            row, = (row for row in table('Topics') if row[0] == name)
+            assert said.partition(':')[0] == row[2].partition(',')[0], name
+    assert set(SERVICE_TYPES) <= {row[0] for row in table('Topics and services at a glance')}
+
+
+def test_every_extra_that_is_installed_exists():
+    known = set(re.findall(r"^        '(\w+)': \[", (ROOT / 'setup.py').read_text(), re.MULTILINE))
+    asked = re.findall(r'\./install\.sh ([\w,]+)', TEXT)
+    assert len(asked) > 5
+    assert {extra for extras in asked for extra in extras.split(',')} <= known
+
+
+def test_every_file_in_a_command_exists():
+    written = {'run.csv', 'run.png', 'boat.gif', 'run.mcap'}
+    count = 0
+    for command in commands():
+        for word in shlex.split(command):
+            word = word.removeprefix('src/boat_buoyancy/')
+            if re.fullmatch(r'(\./|\.ci/|config/|test/|benchmarks/|doc/)[\w./]+', word):
+                assert (ROOT / word).exists(), command
+                count += 1
+            elif re.search(r'\.(py|yaml|md)$', word) and not word.startswith('--') and (
+                    'ros2 launch' not in command):
+                assert word in written or list(ROOT.glob(word)), command
+    assert count > 10
+
+
+@pytest.mark.parametrize('command', [
+    command.removeprefix('.venv/bin/') for command in commands()
+    if re.match(r'(\.venv/bin/)?buoyancy_(?!node)', command)])
 def test_every_tool_command_is_understood(command):
-    program, *arguments = shlex.split(command)
+    name, *arguments = shlex.split(command)
     options = [word for word in arguments if word.startswith('--')]
     said = io.StringIO()
     with contextlib.redirect_stdout(said), pytest.raises(SystemExit) as left:
-        TOOLS[program](['--help'])
+        program(name)(['--help'])
     assert left.value.code == 0
     assert all(option in said.getvalue() for option in options)
-    for word in arguments:
-        if word.endswith('.yaml') and word.startswith('config/'):
-            assert (ROOT / word).is_file()
 
 
-def test_the_report_shown_is_the_report_one_gets(monkeypatch):
+SHOWN = [block for block in blocks('text') if block.startswith('$ buoyancy_')]
+
+
+@pytest.mark.parametrize('example', SHOWN, ids=[block.partition('\n')[0] for block in SHOWN])
+def test_what_a_program_is_shown_to_print_is_what_it_prints(example, monkeypatch):
     monkeypatch.chdir(ROOT)
-    example, = (block for block in blocks('text') if block.startswith('$ buoyancy_report'))
     first, _, expected = example.partition('\n')
+    _, name, *arguments = first.split()
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        assert report.main(first.split()[2:]) == 0
+        assert program(name)(arguments) == 0
     # As it is where Numba is installed.
     got = said.getvalue().replace(PLAIN, 'the step is compiled')
-    assert got.strip() == expected.strip()
+    # A line of dots stands for lines that are left out.
+    parts = [re.escape(part.strip('\n')) for part in f'\n{expected}'.split('\n...\n')]
+    assert re.fullmatch(r'\n?' + r'\n(?:.*\n)*?'.join(parts) + r'\n?', '\n' + got), got
 
 
-def test_the_added_mass_shown_is_what_one_gets(monkeypatch):
+def test_what_is_shown_is_of_every_kind():
+    assert {block.split()[1] for block in SHOWN} == {'buoyancy_report', 'buoyancy_hydrodynamics'}
+
+
+LIBRARY = [block for name in ('library.md', 'your_boat.md')
+           for block in blocks('python', page(name))]
+
+
+@pytest.mark.parametrize('number', range(len(LIBRARY)))
+def test_a_library_example_runs_and_says_what_is_shown(number, tmp_path, monkeypatch):
     monkeypatch.chdir(ROOT)
-    example, = (block for block in blocks('text')
-                if block.startswith('$ buoyancy_hydrodynamics'))
-    first, _, expected = example.partition('\n')
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
-        assert hydrodynamics.main(first.split()[2:]) == 0
-    assert said.getvalue().strip() == expected.strip()
-
-
-def test_the_library_example_runs_and_says_what_is_shown(tmp_path, monkeypatch):
-    monkeypatch.chdir(ROOT)
-    _, example = blocks('python')
     path = tmp_path / 'example.py'
-    path.write_text(example)
+    path.write_text(LIBRARY[number])
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
         runpy.run_path(str(path))
-    lines = re.findall(r'# -> (.*)$', example, re.MULTILINE)
-    assert lines == said.getvalue().strip().splitlines()
+    lines = re.findall(r'# -> (.*)$', LIBRARY[number], re.MULTILINE)
+    assert lines and lines == said.getvalue().strip().splitlines()
 
 
-def test_the_launch_example_is_a_part_of_the_file_it_is_said_to_come_from():
-    example, _ = blocks('python')
+def test_the_other_python_is_of_the_files_that_it_is_said_to_come_from():
+    controller, = blocks('python', README)
+    assert (ROOT / 'examples' / 'heading_hold.py').read_text().endswith('\n' + controller)
+    fleet, = blocks('python', page('ros.md'))
     shipped = (ROOT / 'launch' / 'two_boats.launch.py').read_text()
-    assert ' '.join(example.split()) in ' '.join(shipped.split())
+    assert ' '.join(fleet.split()) in ' '.join(shipped.split())
+    assert len(LIBRARY) + 2 == len(blocks('python'))
 
 
-def test_the_figures_of_the_knobs_are_those_of_the_scenes():
-    # The scenes of the idea start from the values that the table recommends.
-    text = section('The knobs of the idea, and where to start')
+def test_the_house_is_the_one_that_the_tests_hold():
+    rows = [row[0] for row in table('The house')]
+    assert rows == list(FLOORS)
+    below = section('The house').rpartition('Below them are')[2].partition('.')[0]
+    assert tuple(re.findall(r'`(\w+)`', below)) == FOUNDATIONS
+
+
+def test_what_the_troubles_quote_is_what_the_programs_say():
+    sources = '\n'.join(path.read_text() for path in (ROOT / 'boat_buoyancy').rglob('*.py'))
+    sources = re.sub(r"'\s+f?'|\s+", ' ', sources).lower()
+    quoted = [part.strip() for row in table('When something is not as you expect')
+              for text in re.findall(r'^"(.*)"$', row[0])
+              for part in re.split(r'\.\.\.|FILE|/boat_buoyancy|, ', text)
+              if len(part.strip(' :')) > 8]
+    assert len(quoted) >= 4
+    for text in quoted:
+        assert text.strip(' :').lower() in sources, text
+
+
+def test_the_values_to_start_tuning_from_are_those_of_the_scenes():
+    # The scenes v2 to v4 start from the values that the table recommends.
+    text = section('Tuning probes by hand')
     for name in ('v2_budget', 'v3_probe_damping', 'v4_tuned'):
         boat = load_scene(ROOT / 'config' / f'{name}.yaml')
         assert 1.1 <= boat.values['probes.floatiness'] <= 1.3
@@ -265,8 +402,16 @@ def test_every_figure_of_accuracy_is_the_one_that_the_chart_wrote():
     assert re.findall(r'\d+(?:\.\d+)?', rest) == []
 
 
+def test_the_three_parameters_halve_the_error_as_the_readme_says():
+    rows = read(ROOT / 'doc' / 'fidelity.csv')
+    without, all_three = (fidelity_text.overall(rows, 'columns', fidelity_text.COUNT, parts)[0]
+                          for parts in (fidelity_text.NONE, fidelity_text.ALL))
+    assert 'more than halve the error' in README
+    assert all(2.0 * after < before for before, after in zip(without, all_three))
+
+
 def test_the_figures_about_stability_are_those_of_the_long_runs_and_the_loop():
-    text = section('Stable where other integrators fail')
+    text = page('stability.md')
     recorded = (ROOT / 'doc' / 'long_runs.md').read_text()
     for figure in ('2.51', '80 000'):
         assert figure in text and figure in recorded
@@ -276,12 +421,30 @@ def test_the_figures_about_stability_are_those_of_the_long_runs_and_the_loop():
     assert f'more than {MAX_SUBSTEPS} substeps' in text.replace('\n', ' ')
 
 
+def test_the_waves_on_a_current_are_those_of_the_dispersion_relation():
+    # In deep water (ω - k U)² = g k, a quadratic in the root of k.
+    def length(period, current):
+        root = (math.sqrt(9.81 + 8.0 * math.pi * current / period) - math.sqrt(9.81)) / (
+            2.0 * current) if current else 2.0 * math.pi / period / math.sqrt(9.81)
+        return 2.0 * math.pi / root ** 2
+
+    text = ' '.join(page('model.md').split())
+    assert (f'A wave of 3 s is {length(3.0, 0.0):.1f} m long in still water and '
+            f'{length(3.0, 1.0):.1f} m on a current of 1 m/s') in text
+    assert f'8π U/g, which is {8.0 * math.pi / 9.81:.2f} s against 1 m/s' in text
+
+
 def test_the_speed_that_the_push_is_said_to_give():
-    text = section('Push it, roll waves under it, watch it')
+    text = section('Push it, send it waves, watch it')
     force = float(re.search(r'force: \{x: ([\d.]+)\}', text)[1])
     sim = load_scene({}).simulation()
     for _ in range(3000):
         sim.step([force, 0.0, 0.0, 0.0, 0.0, 0.0])
     assert f'make {sim.state.velocity[0]:.2f} m/s' in text
+    start = sim.state.position[0]
+    for _ in range(6000):
+        sim.step()
+    assert 'for some ten metres' in ' '.join(text.split())
+    assert 5.0 < sim.state.position[0] - start < 20.0
     assert 'draft 0.244 m, heave 0.991 s, roll 1.3 s, pitch 1.06 s' in TEXT
     assert sim.warnings == ()

@@ -30,7 +30,7 @@ from geometry_msgs.msg import Twist, WrenchStamped
 from nav_msgs.msg import Odometry
 from programs import loaded
 import pytest
-from readme import table
+from readme import table, TEXT
 from ros_probe import BoatProcess, Probe, ROOT
 import yaml
 
@@ -226,8 +226,8 @@ def test_the_parameters_of_robot_localization_fit_the_boat():
         assert f'fix.{name}:={value}' in said
 
 
-def test_every_example_is_named_in_the_readme_and_installed():
-    readme, setup = ((ROOT / name).read_text() for name in ('README.md', 'setup.py'))
+def test_every_example_is_named_on_a_page_and_installed():
+    setup = (ROOT / 'setup.py').read_text()
     for path in filter(Path.is_file, EXAMPLES.iterdir()):
-        assert f'examples/{path.name}' in readme, path.name
+        assert f'examples/{path.name}' in TEXT, path.name
         assert f"glob('examples/*{path.suffix}')" in setup

@@ -322,7 +322,7 @@ def test_a_subscriber_that_never_reads(probe, steady, deaf):
 
 def test_a_subscriber_that_was_stopped_is_borne_when_it_is_gone(probe, steady, deaf):
     # Once in some hundred times it is stopped while it holds a lock of Fast DDS's shared memory,
-    # and who writes there waits for as long (README, when the node falls behind).
+    # and who writes there waits for as long (doc/troubleshooting.md, where publishing is slow).
     deaf.send_signal(signal.SIGSTOP)
     probe.spin(3.0)
     deaf.kill()

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The README's tables of topics and services are those of the running node."""
+"""The tables of topics and services are those of the running node."""
 
 from importlib.util import find_spec
 
@@ -50,7 +50,7 @@ def graph():
 
 
 def readable(namespace, names_and_types, prefix):
-    """Return {name as the README has it: type}."""
+    """Return {name as the tables have it: type}."""
     return {name.removeprefix(namespace + prefix).replace('/left/', '/<name>/'): types[0]
             for name, types in names_and_types.items() if name not in RCLPY}
 

@@ -16,7 +16,7 @@
 The table of parameters: every name, default, unit, range and meaning, once.
 
 The node declares its parameters from it, `load_scene` checks files against it, and tests hold
-``config/default.yaml`` and the README to it.
+``config/default.yaml`` and ``doc/parameters.md`` to it.
 """
 
 from dataclasses import dataclass
@@ -105,7 +105,7 @@ def _table():
                   'Frame id of a map that is the same place as world_frame: initialpose is taken '
                   'in it, too, and with publish_tf it is on /tf_static.', **fixed),
         Parameter('status_period', 'float', 5.0, 's',
-                  'Time between status lines of the node; 0 = none. Higher says less.',
+                  'Time between status lines of the node; 0 = none. Higher logs less often.',
                   at_least=0.0, at_most=1e6, **fixed),
         Parameter('publish_clock', 'bool', False, '',
                   'True makes the node the source of /clock, from 0 on.', **fixed),

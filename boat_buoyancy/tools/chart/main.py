@@ -47,7 +47,7 @@ def parser():
     made.add_argument('--tolerance', metavar='METRES',
                       help='print the cheapest setting of each scene that is this accurate')
     made.add_argument('--speed', action='store_true',
-                      help='measure the cost of a step: speed.md, speed.png, speed.csv')
+                      help='measure the cost of a step: step_speed.md, speed.png, speed.csv')
     made.add_argument('--stability', action='store_true',
                       help='measure where each integrator is stable: stability.png')
     made.add_argument('--fidelity', action='store_true',
@@ -96,7 +96,7 @@ def _speed(arguments, progress):
     progress.clear()
     text = speed_report.text(best, rounds)
     speed_report.write_table(out / 'speed.csv', best)
-    (out / 'speed.md').write_text(text, encoding='utf-8')
+    (out / 'step_speed.md').write_text(text, encoding='utf-8')
     speed_plot.draw(best, out / 'speed.png')
     print(text)
 

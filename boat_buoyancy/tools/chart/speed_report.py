@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Speed in words: the tables, the ratios and the machine, as the text of ``speed.md``."""
+"""Speed in words: the tables, the ratios and the machine, as the text of ``step_speed.md``."""
 
 import csv
 from importlib.metadata import PackageNotFoundError, version
@@ -68,7 +68,7 @@ def machine():
 
 
 def text(best, rounds=ROUNDS):
-    """Return ``speed.md``."""
+    """Return ``step_speed.md``."""
     fleets, waves = sizes(best)
     threaded = [boats for boats in fleets if boats >= LARGE_FLEET]
     lines = [
