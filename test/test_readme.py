@@ -61,8 +61,8 @@ def test_the_readme_is_short():
 def passages(text):
     """Return the sentences and the rows of tables that are too long to be equal by chance."""
     found = set()
-    for paragraph in re.split(r'\n{2,}', re.sub(r'^(#.*|!\[.*)$', '', prose(text),
-                                               flags=re.MULTILINE)):
+    plain = re.sub(r'^(#.*|!\[.*)$', '', prose(text), flags=re.MULTILINE)
+    for paragraph in re.split(r'\n{2,}', plain):
         rows = re.findall(r'^\|.*$', paragraph, re.MULTILINE)
         found |= set(rows or re.split(r'(?<=[.?])\s', ' '.join(paragraph.split())))
     return {passage for passage in found if len(passage) > 50}

@@ -171,7 +171,7 @@ def test_a_controller_written_for_vrx_brings_the_boat_of_the_launch_file_to_a_pl
 
 # heading_hold.py
 
-def test_the_controller_holds_a_heading_in_waves_and_ends_without_thrust():
+def test_the_controller_holds_a_heading_in_waves_and_ends_with_0():
     # Waves push with at most the probes' 254 N s/m abeam times 0.31 m/s of the water, a metre off
     # the middle: 80 N m, 0.04 rad of the controller's 2000 N m/rad. Roll and pitch add 0.0025.
     wanted, near = constants('heading_hold.py')['HEADING'], 0.05

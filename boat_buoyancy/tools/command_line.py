@@ -25,9 +25,8 @@ from ..physics.stepping.simulation import SimulationError
 
 # Modules of the extras that Ubuntu 24.04 has no package of.
 NOT_IN_UBUNTU = ('capytaine', 'rosbags', 'viser')
-
-
 EXIT_CODES = 'Exit code: 0; 2 after one line that says what is wrong; 130 when interrupted.'
+UNTIL_TOLD = 'Exit code: 0 when told to end; 2 after one line that says what is wrong.'
 
 
 class _Lines(argparse.HelpFormatter):
@@ -43,13 +42,13 @@ class OneLineParser(argparse.ArgumentParser):
     An argument parser that says what is wrong in one line and ends with exit code 2.
 
     Its help says what a ``program`` is for (``description``), with one ``example`` of its
-    arguments.
+    arguments and what its ``exit_codes`` mean.
     """
 
-    def __init__(self, program, description, example):
+    def __init__(self, program, description, example, exit_codes=EXIT_CODES):
         """Take no arguments so far."""
         super().__init__(prog=program, description=description, formatter_class=_Lines,
-                         epilog=f'Example: {program} {example}\n{EXIT_CODES}')
+                         epilog=f'Example: {program} {example}\n{exit_codes}')
 
     def error(self, message):
         """Print the message after the program's name and leave."""

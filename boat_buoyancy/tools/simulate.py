@@ -31,7 +31,7 @@ from . import animate, command_line, compare, plot, recording, simulate_text
 from .progress import Progress
 from ..physics import checks, load_scene
 from ..physics.compiled import notice
-from ..physics.scene.parameters import WAVE_KINDS
+from ..physics.scene.changes import changed
 from ..physics.stepping.integrators import INTEGRATORS
 from ..physics.stepping.march import march_by
 
@@ -106,11 +106,8 @@ def push_of(scene, simulation, arguments):
 def scene_of(path, waves):
     """Return the scene of a file, on ``waves``, rows in one flat list, where they are not None."""
     scene = load_scene(path)
-    if waves is None:
-        return scene
-    kept = {name: value for name, value in scene.given.items()
-            if not any(name in kind for kind in WAVE_KINDS)}
-    return load_scene(kept | {'sea.waves': waves})
+    return scene if waves is None else load_scene(
+        changed(scene.given, scene.given, {'sea.waves': waves}))
 
 
 def check_outputs(arguments):

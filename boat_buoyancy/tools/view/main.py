@@ -38,7 +38,7 @@ def parser():
     """Return the parser of the program's arguments."""
     arguments = command_line.OneLineParser(
         PROGRAM, 'Tune a boat while it floats: a page with the boat on its water and its knobs '
-        'beside it. Ctrl-C ends it.', 'config/waves.yaml --port 8090')
+        'beside it. Ctrl-C ends it.', 'config/waves.yaml', command_line.UNTIL_TOLD)
     option = arguments.add_argument
     option('scene', metavar='SCENE', nargs='?',
            help='parameter file of the boat and its sea, as config/barge.yaml')

@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from ..animate import hull_corners
+from ..hull_outline import hull_corners
 
 # Cells along one side of the water shown, its side over the length of the boat, and the cells
 # between two of the lines that are drawn on it.
