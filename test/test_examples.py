@@ -81,7 +81,7 @@ def test_a_boat_of_the_monte_carlo_moves_as_it_does_alone():
 
 
 def test_the_monte_carlo_gives_the_same_on_this_machine_and_on_a_scheduler(tmp_path):
-    from distributed import LocalCluster
+    LocalCluster = pytest.importorskip('distributed').LocalCluster
     here, there = tmp_path / 'here.csv', tmp_path / 'there.csv'
     on_cores = run('monte_carlo', DEFAULT, *RUN, str(here))
     with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:

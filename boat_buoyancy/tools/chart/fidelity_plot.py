@@ -27,8 +27,7 @@ from ..plot_style import figure, logarithmic, save, SETTINGS
 DRAWN = {('springs', (2, 2)): 11, ('columns', (2, 2)): -11, ('columns', (6, 4)): -11,
          ('panels', (6, 4)): -11}
 UNITS = {'heave': 'amplitude', 'roll': 'slope', 'pitch': 'slope'}
-TITLE = ('Added mass, damping and wave force: with all three a boat moves in waves as the real '
-         'hull does')
+TITLE = 'Added mass, damping and wave force: all three bring a boat close to the real hull in waves'
 
 
 @matplotlib.rc_context(SETTINGS)
