@@ -71,6 +71,23 @@ def test_way_and_time_are_those_of_the_differential_equation(linear, quadratic):
         pytest.approx(push, rel=1e-12))
 
 
+@pytest.mark.parametrize('part, grows', [(0.8, False), (1.2, True)])
+def test_a_boat_keeps_its_course_up_to_the_speed_that_is_told_and_not_beyond(part, grows):
+    mass, added = 2000.0, [50.0, 700.0, 900.0, 100.0, 300.0, 200.0]
+    scene = load_scene({
+        'boat.mass': mass, 'hull.size': [4.0, 1.5, 1.0], 'added_mass': added,
+        'boat.inertia': [800.0, 2500.0, 2600.0],
+        'damping.linear': [60.0, 300.0, 800.0, 300.0, 900.0, 500.0], 'damping.probe': 0.0,
+        'start.angular_velocity': [0.0, 0.0, 1e-6]})
+    steady = handling(scene)['steady_course_up_to_m_per_s']
+    assert steady == pytest.approx(
+        np.sqrt(300.0 * 500.0 / ((mass + added[0]) * (added[1] - added[0]))))
+    # Pushed to a speed a little below and above it.
+    run = scene.simulation().run(200.0, [60.0 * part * steady, 0.0, 0.0, 0.0, 0.0, 0.0])
+    turning = np.abs(run.angular_velocity[:, 2])
+    assert (turning[-1] > 2.0 * turning[10000]) == grows
+
+
 def test_thrusters_push_with_all_that_they_have():
     # Two of -1000 to 2353.5 N, 1.027135 m to each side.
     found = handling(load_scene(CONFIG / 'wam_v.yaml'))

@@ -14,6 +14,7 @@
 
 """The physics needs NumPy and PyYAML, the tools no ROS."""
 
+from importlib.util import find_spec
 import subprocess
 import sys
 
@@ -48,12 +49,15 @@ for name in found:
 
 # What `buoyancy_view --ros` imports, and nothing else does.
 OF_ROS = ('boat_buoyancy.tools.view.remote', 'boat_buoyancy.tools.view.remote_boat')
+# The page itself, where the extra that draws it is not there.
+PAGE = () if find_spec('viser') else tuple(f'boat_buoyancy.tools.view.{name}' for name in (
+    'knob_panel', 'motion_panel', 'number_panel', 'page', 'stage'))
 
 
 def imported(package, blocked, then=''):
     done = subprocess.run(
         [sys.executable, '-c', IMPORT_ALL.format(package=package, blocked=blocked, then=then,
-                                                 apart=OF_ROS)],
+                                                 apart=OF_ROS + PAGE)],
         capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
     return done.stdout.split()

@@ -15,15 +15,19 @@
 """What the node keeps between messages and steps, without a graph."""
 
 import math
+from pathlib import Path
 
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.compiled import machine_code, numba
+from boat_buoyancy.physics.scene.scene import scene_from_values
 from boat_buoyancy.physics.sea.waves import Sea
 from boat_buoyancy.physics.stepping.march import march_by
 from boat_buoyancy.physics.stepping.simulation import SimulationError
 from boat_buoyancy.ros.session import Session
 import numpy as np
 import pytest
+
+CONFIG = Path(__file__).parents[1] / 'config'
 
 
 ROWS = [0.2, 4.0, 0.3, 1.0]
@@ -314,3 +318,26 @@ def test_a_boat_put_somewhere_floats_there_at_its_draft_and_at_rest():
     assert state.position.tolist() == pytest.approx([5.0, -3.0, 0.5 - 2000.0 / 8200.0])
     assert not state.velocity.any() and not state.angular_velocity.any()
     assert 2 * math.atan2(state.orientation[2], state.orientation[3]) == pytest.approx(1.2)
+
+
+def test_a_hull_that_takes_other_columns_at_its_new_draft_is_refused_and_nothing_is_lost():
+    # The tubes of the RIB come into the water between the two.
+    rib = load_scene(CONFIG / 'rib.yaml')
+    session = Session(load_scene({**rib.given, 'hull.model': 'columns', 'boat.mass': 400.0}))
+    heavier = scene_from_values({**session.scene.given, 'boat.mass': 650.0}, session.scene)
+    with pytest.raises(ValueError, match='boat.mass: expected a boat on as many columns'):
+        session.change(heavier, heavier.plan(), {'boat.mass'})
+    assert session.scene.boat.mass == session.simulation.boat.mass == 400.0
+
+
+def test_panels_stay_as_fine_as_the_waves_in_force_need_them_when_the_boat_changes():
+    scene = load_scene({'hull.model': 'panels'})
+    session = Session(scene)
+    session.set_waves(np.array([[0.02, 1.0, 0.0, 0.0]]))
+    for _ in range(500):
+        session.step()
+    fine = len(session.simulation.boat.hull.panels.triangles)
+    damped = scene_from_values({'hull.model': 'panels', 'damping.linear': [100.0] * 6}, scene)
+    session.change(damped, damped.plan(), {'damping.linear'})
+    assert len(session.simulation.boat.hull.panels.triangles) == fine > len(
+        scene.boat.hull.panels.triangles)

@@ -270,7 +270,7 @@ def test_drag_that_counts_twice_is_warned_of():
     for more in ({}, {'damping.probe': [0.0, 0.0, 900.0]}, {'damping.probe': 0.0},
                  {'damping.linear_retention': [1.0, 1.0, 0.5], 'damping.angular_retention': [
                      0.5, 0.5, 1.0]}):
-        assert load_scene({**drag, **more}).warnings == ()
+        assert not any('twice' in said for said in load_scene({**drag, **more}).warnings)
 
 
 def test_a_boat_that_is_given_drag_has_no_other_made_up_in_water():
@@ -779,3 +779,20 @@ def test_a_change_works_out_anew_only_what_depends_on_it():
     # All that is derived, given as it was derived, changes nothing.
     later = scene_from_values(before.values, before)
     assert (later.boat, later.sea, later.start) == (before.boat, before.sea, before.start)
+
+
+def test_drag_that_leaves_a_boat_bobbing_is_warned_of():
+    surge = {'damping.quadratic': [50.0, 50.0, 0.0, 0.0, 0.0, 20.0]}
+    sentence, = load_scene(surge).warnings
+    assert sentence.startswith('Nothing damps heave, roll, pitch: ')
+    for more in ({'damping.probe': [0.0, 0.0, 900.0]}, {'damping.probe': 0.0},
+                 {'damping.linear': [0.0, 0.0, 500.0, 300.0, 900.0, 0.0]}):
+        assert load_scene({**surge, **more}).warnings == ()
+
+
+def test_waves_break_sooner_in_shallow_water():
+    # 0.3 m high, 10 s: in deep water 156 m long; in 0.5 m of water they break at 0.4 m.
+    for height, breaks in ((0.3, False), (0.5, True)):
+        warnings = load_scene({'sea.waves': [0.5 * height, 10.0, 0.0, 0.0],
+                               'sea.depth': 0.5}).warnings
+        assert any('steeper than water can be' in said for said in warnings) == breaks

@@ -203,3 +203,10 @@ def test_waves_that_do_not_reach_down_to_a_hull_need_no_probes():
     assert any('too far apart' in line for line in load_scene(barge).warnings)
     deep = load_scene({**barge, 'wave_force': 'froude_krylov'})
     assert not any('too far apart' in line for line in deep.warnings)
+
+
+def test_waves_that_do_not_reach_a_hull_at_all_are_not_warned_of():
+    for rows in ([1e-4, 0.01, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]):
+        scene = load_scene({'hull.size': [20.0, 6.0, 3.0], 'boat.mass': 184500.0,
+                            'wave_force': 'froude_krylov', 'sea.waves': rows})
+        assert not any('too far apart' in line for line in scene.warnings)

@@ -146,7 +146,8 @@ class Session:
         moving.  Waves and wind that came by message stay unless the scene's changed or ``names``,
         the parameters that were set, ask for them.
         """
-        sea, self.scene = self.sea_with(scene, names), scene
+        sea = self.sea_with(scene, names)
+        self.scene = scene
         self.thrust.timeout = scene.thrust_timeout
         self.thrusters.set_timeout(scene.thrust_timeout)
         if plan is not None:
@@ -161,9 +162,15 @@ class Session:
         """
         Return the `Sea` after `change` to a scene, with the names of the parameters that were set.
 
-        ValueError when the waves that came by message cannot run against its current.
+        ValueError when the waves that came by message cannot run against its current, and when
+        the boat lies so deep or high that its hull takes more or fewer columns.
         """
         before = self.scene
+        count, wanted = (len(one.boat.hull.share) for one in (scene, before))
+        if count != wanted:
+            raise ValueError(f'{" and ".join(sorted(names))}: expected a boat on as many columns '
+                             f'as before, {wanted}, as depths are published of each, got one that '
+                             f'takes {count} at its new draft; start again with it')
 
         def changed(name):
             return scene.values[name] != before.values[name]

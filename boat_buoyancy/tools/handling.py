@@ -90,6 +90,21 @@ def axes(boat):
                  float(wetness * damping.quadratic[i] + drag)) for i, drag in zip((0, 5), air)]
 
 
+def steady_course_speed(boat):
+    """
+    Return the speed ahead in m/s up to which a boat runs straight by itself; infinite for any.
+
+    The moment of Munk turns a hull away from its course, drag holds it: U^2 = Y N / (m_x (m_y -
+    m_x)), Y and N the linear drag in sway and yaw, m_x and m_y the mass ahead and abeam with the
+    added mass (Fossen, Handbook of Marine Craft Hydrodynamics, 2011, 6.3 and 7.2).
+    """
+    rest = Equilibrium.of(boat)
+    ahead, abeam = rest.mass[0, 0], rest.mass[1, 1]
+    if not abeam > ahead:
+        return math.inf
+    return math.sqrt(rest.damping[1, 1] * rest.damping[5, 5] / (ahead * (abeam - ahead)))
+
+
 def handling(scene, push=None):
     """
     Return how the boat of a `Scene` answers a push ahead and one to turn, {name: number or None}.
@@ -104,7 +119,8 @@ def handling(scene, push=None):
         ahead = PUSH * scene.boat.mass if push is None else push
     if push is not None or not 0.0 < torque < UNLIMITED:
         torque = ahead * _half_beam(scene.boat)
-    found = {'push_n': ahead, 'speed_ahead_m_per_s': surge.steady_speed(ahead),
+    found = {'steady_course_up_to_m_per_s': steady_course_speed(scene.boat),
+             'push_n': ahead, 'speed_ahead_m_per_s': surge.steady_speed(ahead),
              'push_for_1_m_per_s_n': surge.drag(1.0), 'turning_torque_n_m': torque,
              'time_to_turn_90_deg_s': yaw.time_to(0.5 * math.pi, torque)}
     return {name: value if math.isfinite(value) else None for name, value in found.items()}

@@ -27,6 +27,8 @@ from . import boundary_elements, command_line
 from .progress import Progress
 from ..physics.hydrostatics.moving_water import COORDINATES, critical_damping, modes_with
 from ..physics.hydrostatics.natural_modes import MODES
+from ..physics.hydrostatics.rest import rest_state
+from ..physics.hydrostatics.stiffness import still_load
 from ..physics.hydrostatics.strip_theory import first_guess
 from ..physics.scene.scene import load_scene
 
@@ -85,6 +87,8 @@ def text(source, boat, added, damping, roll_ratio, trust):
     below = [name for values in (added, damping)
              for name, value in zip(COORDINATES, values) if value < 0.0]
     before, after = modes_with(boat, np.zeros(6)), modes_with(boat, *kept)
+    # Both are of a hull that is wet as at rest; the parameters are of one that is all wet.
+    kept = [values / still_load(boat, rest_state(boat))[0].wetness for values in kept]
     return '\n'.join([
         f'# {source}: surge, sway, heave, roll, pitch, yaw; kg, kg m2, N/(m/s), N m/(rad/s);',
         '# about the centre of mass, body axes. Paste these into the parameter file.',

@@ -105,6 +105,9 @@ def _handling(result):
     time, needed = found['time_to_turn_90_deg_s'], found['push_for_1_m_per_s_n']
     yield (f'  speed ahead      {_speed(speed):>10} m/s pushed by {found["push_n"]:.4g} N; '
            f'{needed:.4g} N hold 1 m/s')
+    steady = found['steady_course_up_to_m_per_s']
+    if steady is not None:
+        yield f'  steady course    {steady:>10.3g} m/s at most; faster it has to be steered'
     if time is not None:
         yield f'  turn of 90 deg   {time:>10.3g} s   from rest, by {torque:.4g} N m'
     yield ''

@@ -146,6 +146,12 @@ class Boat:
         """Return whether the wave force is that of Froude and Krylov."""
         return len(self.immersion) > 0
 
+    @cached_property
+    def waterplane_parts(self) -> np.ndarray:
+        """Return (n,), the parts of the waterplane that the probes stand for, if wet at rest."""
+        areas = self.hull.stiffness * (self.immersion > 0.0 if self.follows_waves else 1.0)
+        return areas / areas.sum() if areas.any() else self.hull.share
+
     @property
     def floatiness(self) -> float:
         """Return the buoyancy budget over the weight, F_max / (m g)."""

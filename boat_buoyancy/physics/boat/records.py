@@ -49,7 +49,8 @@ BOAT = np.dtype([
     ('reach', 'f8')])
 # Place m, most lift N, depth m at which it is reached, and share of the budget.
 PROBE = np.dtype([('x', 'f8'), ('y', 'f8'), ('z', 'f8'), ('max_force', 'f8'), ('height', 'f8'),
-                  ('share', 'f8'), ('along', 'f8'), ('across', 'f8')])
+                  ('share', 'f8'), ('along', 'f8'), ('across', 'f8'),
+                  ('waterplane', 'f8')])
 
 SYMMETRIC = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
@@ -92,15 +93,15 @@ def boat_record(boat):
 
 def waterplane(boat):
     """
-    Return what the probes tell of a waterplane, all by their shares.
+    Return what the probes tell of a waterplane, all by their parts of it at rest.
 
     Its middle (2,) m from the centre of mass, the probes (n, 2) m from there, and 1/m^2, one over
     their mean squares across, along and both; 0 where all stand in a line.
     """
-    places, share = boat.probe_offsets[:, :2], boat.hull.share
-    middle = share @ places
+    places, part = boat.probe_offsets[:, :2], boat.waterplane_parts
+    middle = part @ places
     away = places - middle
-    xx, yy = share @ away ** 2
+    xx, yy = part @ away ** 2
     squares = np.array([yy, xx, xx + yy])
     real = squares > 1e-12 * (xx + yy)
     return middle, away, np.where(real, 1.0 / np.where(real, squares, 1.0), 0.0)
@@ -114,6 +115,7 @@ def probe_records(boat):
     records['max_force'], records['height'], records['share'] = (
         hull.max_force, hull.height, hull.share)
     records['along'], records['across'] = waterplane(boat)[1].T
+    records['waterplane'] = boat.waterplane_parts
     return records
 
 

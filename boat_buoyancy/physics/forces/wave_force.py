@@ -102,12 +102,13 @@ def add_to_twist(boat, twist, probe, velocity):
     """
     Return a `Twist` with the water's velocity (3) at a probe added, body axes.
 
-    Least squares over the waterplane, s the shares and x, y from its middle: the mean velocity,
-    and sum s y w / sum s y^2, -sum s x w / sum s x^2, sum s (x v - y u) / sum s (x^2 + y^2).
+    Least squares over the waterplane, s a probe's part of it and x, y from its middle: the mean
+    velocity, and sum s y w / sum s y^2, -sum s x w / sum s x^2,
+    sum s (x v - y u) / sum s (x^2 + y^2).
     """
     u, v, w = velocity
-    along, across = probe.share * probe.along, probe.share * probe.across
-    return Twist(add_scaled(twist.linear, probe.share, velocity), add(twist.angular, (
+    along, across = probe.waterplane * probe.along, probe.waterplane * probe.across
+    return Twist(add_scaled(twist.linear, probe.waterplane, velocity), add(twist.angular, (
         boat.per_yy * across * w, -boat.per_xx * along * w,
         boat.per_rr * (along * v - across * u))))
 

@@ -20,7 +20,7 @@ from . import parameters
 from .wave_sampling import sampling_warnings
 from ..checks import shown
 from ..hydrostatics.warnings import dry_thruster_warnings, parting_warnings
-from ..sea.steepness import steepness, wave_steepness
+from ..sea.steepness import breaking_steepness, steepness, wave_steepness
 
 # Somewhat more than 2 pi, so that 6.2832 is one.
 FULL_TURN = 6.2833
@@ -30,8 +30,6 @@ AXES = ('surge', 'sway', 'heave', 'roll', 'pitch', 'yaw')
 # A boat that 1 N a kg, a tenth of its weight, takes no faster than this in m/s hardly moves: the
 # measured drag of the WAM-V lets it reach 0.81 m/s.
 STUCK = 0.5
-# Height over length at which a wave breaks in deep water (Michell 1893).
-BREAKING = 1.0 / 7.0
 # The greatest significant steepness of a sea, that of short periods (DNV-RP-C205, 3.5).
 STEEPEST_SEA = 1.0 / 10.0
 PROBES_ONLY = ('probes.positions', 'probes.weights', 'probes.floatiness', 'probes.stiffness')
@@ -89,7 +87,8 @@ def without_use(in_force):
 
 def remarks(boat, sea, thrusters, given, in_force):
     """Return sentences about what was surely not meant, but for how the boat lies, in a tuple."""
-    warnings = [*_drag_twice(boat), *_stuck(boat, given), *_half_in_waves(boat, sea)]
+    warnings = [*_drag_twice(boat), *_stuck(boat, given), *_half_in_waves(boat, sea),
+                *_undamped(boat, given)]
     warnings += [f'{name} has no effect: {why}.' for name, why in _without_effect(in_force)
                  if name in given and given[name] != parameters.PARAMETERS[name].default]
     warnings += [f'{name} is {given[name]:g} Hz and rate is {in_force["rate"]:g} Hz: there is at '
@@ -157,6 +156,20 @@ def _stuck(boat, given):
                f'{[0.0, 0.0, float(heave)]}.')
 
 
+def _undamped(boat, given):
+    """Yield a sentence for motions that the damping that was given leaves without any."""
+    damping = boat.damping
+    if not (damping.linear.any() or damping.quadratic.any()) or damping.probe.any():
+        return
+    free = (damping.linear == 0.0) & (damping.quadratic == 0.0) & (damping.rates[0] == 0.0)
+    ringing = [axis for axis, undamped in zip(AXES[2:5], free[2:5]) if undamped]
+    if ringing and not {'damping.probe', 'damping.linear_retention',
+                        'damping.angular_retention'} & set(given):
+        yield (f'Nothing damps {", ".join(ringing)}: once drag is given it is all there is, so '
+               'the boat will not stop bobbing and rolling; give damping.linear there as well '
+               '(buoyancy_hydrodynamics prints it), or damping.probe.')
+
+
 def _half_in_waves(boat, sea):
     """Yield a sentence for added mass without what in waves belongs to it."""
     if sea.ends is not None and boat.added_mass.any() and not boat.follows_waves:
@@ -168,11 +181,12 @@ def _half_in_waves(boat, sea):
 def sea_warnings(sea):
     """Return sentences on a `Sea` that no water could have, in a tuple."""
     each, whole = wave_steepness(sea), steepness(sea)
-    if each.max(initial=0.0) > BREAKING:
-        row = int(np.argmax(each))
+    breaking = breaking_steepness(sea)
+    if (each > breaking).any():
+        row = int(np.argmax(each / breaking))
         return (f'The waves are steeper than water can be: row {row + 1}, '
                 f'{sea.waves[row].tolist()}, has a height of {each[row]:.2g} of its length, and '
-                f'breaks above {BREAKING:.2g}; give it a longer period or less amplitude.',)
+                f'breaks above {breaking[row]:.2g}; give it a longer period or less amplitude.',)
     if np.count_nonzero(each) > 1 and whole > STEEPEST_SEA:
         return (f'The sea is steeper than any sea is: its significant height of '
                 f'{sea.significant_height:.3g} m is {whole:.2g} of the length of its waves, and '

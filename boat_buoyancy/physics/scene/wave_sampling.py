@@ -43,11 +43,12 @@ def sampling_warnings(boat, sea, values):
     amplitude, hull = sea.table[START], boat.hull
     if not amplitude.any():
         return _unreached(hull)
+    # In parts of all of them; first of the largest, as the squares of the smallest numbers are 0.
+    amplitude = amplitude / np.abs(amplitude).max()
+    amplitude /= np.sqrt(amplitude @ amplitude)
     if boat.follows_waves:
         # As the hull feels them, where it is as deep as its columns are on average.
         amplitude = amplitude * wave_decay(boat.immersion, sea.table)[:, PRESSURE].mean(axis=0)
-    # Only their ratios matter, and the squares of the smallest numbers are 0.
-    amplitude = amplitude / np.abs(amplitude).max()
     k = np.hypot(sea.table[KX], sea.table[KY])
     shortest = f'the shortest wave that matters is {sea.shortest_length:.3g} m long'
     if hull.panels is not None:
@@ -104,7 +105,7 @@ def _rounded_down(value):
 
 def _error(count, size, amplitude, k):
     """
-    Return the rms error of the lift of ``count`` Gauss columns on ``size`` m, by amplitude.
+    Return the rms error of the lift of ``count`` Gauss columns on ``size`` m, as the amplitudes.
 
     A wave lifts a length L by sin(kL/2)/(kL/2) of its amplitude, and the columns by their mean.
     Of the worst heading: at a single one, too few columns may be right by chance.
@@ -114,7 +115,7 @@ def _error(count, size, amplitude, k):
     for place, weight in zip(*_gauss_points(count)):
         found += 0.5 * weight * np.cos(half * place)
     away = amplitude * (found - np.sinc(half / np.pi))
-    return float(np.sqrt((away ** 2).sum(axis=1).max() / (amplitude @ amplitude)))
+    return float(np.sqrt((away ** 2).sum(axis=1).max()))
 
 
 def _enough(count, size, amplitude, k):
@@ -139,7 +140,7 @@ def _between_probes(positions, amplitude, k, shortest):
     if not np.isfinite(widest):
         return ()
     unseen = amplitude[k * widest > np.pi]
-    if unseen @ unseen <= TOLD ** 2 * (amplitude @ amplitude):
+    if unseen @ unseen <= TOLD ** 2:
         return ()
     return (f'The probes are too far apart for the waves: {shortest}, and neighbours are up to '
             f'{widest:.3g} m apart, more than half of that, so waves pass between them; add '

@@ -24,6 +24,16 @@ def wave_steepness(sea):
     return 2.0 * sea.waves[:, 0] * np.hypot(*sea.wave_vector.T) / (2.0 * np.pi)
 
 
+def breaking_steepness(sea):
+    """
+    Return (W,) height over length at which each wave of a `Sea` breaks, tanh(k h) / 7.
+
+    Michell (1893) in deep water, Miche (1944) in any.
+    """
+    k = np.hypot(*sea.wave_vector.T)
+    return (np.tanh(k * sea.depth) if sea.depth else np.ones_like(k)) / 7.0
+
+
 def steepness(sea):
     """
     Return height over length of a `Sea`: of its wave, or of an irregular sea as a whole.

@@ -80,7 +80,7 @@ class Simulation(Stepped):
         if len(boat.hull.share) != len(self.boat.hull.share):
             raise ValueError(f'boat: expected {len(self.boat.hull.share)} probes as before, '
                              f'got {len(boat.hull.share)}')
-        self._engine.replace(boats=[boat])
+        self._engine.replace(boats=[boat.on(self.sea)])
 
     @property
     def sea(self) -> Water:
@@ -127,9 +127,10 @@ class Simulation(Stepped):
     @property
     def probe_forces(self) -> np.ndarray:
         """
-        Return (probes,) N, the lift of each probe, straight up, at the time of `state`.
+        Return (probes,) N, the lift of each probe in still water as deep, at the time of `state`.
 
-        With panels, what the columns there would lift.
+        With panels, what the columns there would lift; in waves with the wave force of Froude and
+        Krylov, what they would lift without it.
         """
         return self._engine.forces(0)
 

@@ -151,7 +151,7 @@ def _turning_per_speed(boat):
     See `forces.wave_force.add_to_twist`.
     """
     middle, away, per_square = waterplane(boat)
-    along, across = boat.hull.share @ np.abs(away)
+    along, across = boat.waterplane_parts @ np.abs(away)
     return (float(np.linalg.norm(per_square * [across, along, along + across])),
             float(np.linalg.norm(middle)))
 

@@ -27,7 +27,7 @@ from ..plot_style import figure, logarithmic, save, SETTINGS
 DRAWN = {('springs', (2, 2)): 11, ('columns', (2, 2)): -11, ('columns', (6, 4)): -11,
          ('panels', (6, 4)): -11}
 UNITS = {'heave': 'amplitude', 'roll': 'slope', 'pitch': 'slope'}
-TITLE = 'Added mass, damping and wave force: all three bring a boat close to the real hull in waves'
+TITLE = 'Added mass, damping and wave force: all three bring a boat close to a real hull in waves'
 
 
 @matplotlib.rc_context(SETTINGS)

@@ -85,6 +85,7 @@ class LiveBoat:
         if any(PARAMETERS[name].read_only and scene.values.get(name) != before.values.get(name)
                for name in values):
             return Change(scene, session=Session(scene))
+        self.session.sea_with(scene, frozenset(values))
         plan = None if scene.boat is before.boat else scene.plan()
         return Change(scene, plan, frozenset(values))
 
