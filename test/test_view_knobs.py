@@ -26,7 +26,7 @@ from boat_buoyancy.physics.scene.scene import scene_from_values
 from boat_buoyancy.tools import report
 from boat_buoyancy.tools.view import main
 from boat_buoyancy.tools.view.knob_panel import read_value
-from boat_buoyancy.tools.view.knobs import knobs, trimmed
+from boat_buoyancy.tools.view.knobs import knobs, trimmed, turned
 from boat_buoyancy.tools.view.live_boat import LiveBoat
 from boat_buoyancy.tools.view.readout import figures, stable_step
 from boat_buoyancy.tools.view.shapes import (CELLS, hull_mesh, lift_arrows, LINED, probe_colors,
@@ -73,6 +73,15 @@ def test_a_knob_changes_its_own_number_and_no_other():
                 before, after = list(scene.values[knob.name]), list(changed.values[knob.name])
                 assert after.pop(knob.index) == value
                 assert before.pop(knob.index) != value and after == before
+
+
+@pytest.mark.parametrize('name, before, after', [
+    ('damping.probe', 3, 1), ('damping.linear_retention', 3, 1),
+    ('damping.angular_retention', 3, 1)])
+def test_there_is_a_knob_for_every_number_that_a_parameter_has_by_now(name, before, after):
+    for numbers in (before, after):
+        scene = scene_from_values({name: [0.5] * numbers})
+        assert [index for one, index in turned(scene) if one == name] == list(range(numbers))
 
 
 @pytest.mark.parametrize('end, axis, sign', [

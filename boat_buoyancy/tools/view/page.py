@@ -17,6 +17,7 @@
 from html import escape
 
 from .knob_panel import KnobPanel
+from .knobs import turned
 from .motion_panel import MotionPanel
 from .number_panel import NumberPanel
 from .readout import figures, stable_step
@@ -61,7 +62,7 @@ class Page:
         save.on_click(self._save)
         self._knobs = KnobPanel(gui, self._set)
         self._numbers = NumberPanel(gui, boat.history)
-        self._scene = self._begun = None
+        self._scene = self._knobs_of = None
         self._sentence, self._shown_sentence, self._stable = '', '', None
         self._pictures = 0
         self.show()
@@ -70,9 +71,11 @@ class Page:
         """Show how things are now."""
         boat = self._boat
         self._stage.show(boat.snapshots)
-        scene = boat.scene
-        if boat.begun != self._begun:
-            self._begun = boat.begun
+        scene, begun = boat.scene, boat.begun
+        # A change can give a parameter more numbers, and a node's come after it was met.
+        knobs_of = begun, turned(scene) if scene is not self._scene else self._knobs_of[1]
+        if knobs_of != self._knobs_of:
+            self._knobs_of = knobs_of
             self._knobs.rebuild(scene)
         if scene is not self._scene:
             self._scene = scene
