@@ -88,7 +88,7 @@ def work(arguments):
         else:
             floating = found(arguments.ros, told)
         try:
-            if not told.is_set():
+            if not (told.is_set() or floating.ended.done()):
                 show(floating, arguments, told)
         finally:
             floating.stop()
@@ -108,8 +108,12 @@ def found(arguments, told):
     remote = Remote(arguments)
     where = '' if remote.wanted == '/' else f' in {remote.wanted}'
     print(f'{PROGRAM}: looking for a node named {NODE_NAME}{where}', flush=True)
-    while not told.is_set() and not remote.wait(0.2):
-        pass
+    said = set()
+    while not (told.is_set() or remote.ended.done() or remote.wait(0.2)):
+        # A boat that cannot be made here, as of a mesh that is not on this machine.
+        for sentence in sorted(remote.troubles - said):
+            print(f'{PROGRAM}: {command_line.one_line(sentence)}', file=sys.stderr, flush=True)
+            said.add(sentence)
     return remote
 
 

@@ -69,6 +69,13 @@ class Remote:
             self._executor.spin()
         except ExternalShutdownException:
             pass
+        except BaseException as error:
+            self.ended.set_exception(error)
+
+    @property
+    def troubles(self):
+        """Return the sentences of what is wrong with the boats, a set."""
+        return {boat.trouble for boat in self._boats.values()} - {None}
 
     def stop(self):
         """Leave the network."""
@@ -91,7 +98,7 @@ class Remote:
             self._boats[namespace].met()
         for namespace in self._present - present:
             boat = self._boats[namespace]
-            boat.trouble = f'{boat.path} is gone; it is shown again when it comes back'
+            boat.gone()
         self._present = present
         for boat in self._boats.values():
             if boat.scene is None and boat.namespace in present:
