@@ -23,7 +23,7 @@ from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.hydrostatics.rest import rest_attitude
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from boat_buoyancy.physics.scene.scene import scene_from_values
-from boat_buoyancy.tools import report
+from boat_buoyancy.tools import command_line, report
 from boat_buoyancy.tools.view import main
 from boat_buoyancy.tools.view.knob_panel import read_value
 from boat_buoyancy.tools.view.knobs import knobs, trimmed, turned
@@ -205,6 +205,20 @@ def test_what_is_wrong_is_one_line(capsys, tmp_path):
         assert f'cannot listen on port {port} of 127.0.0.1: Address already in use' in refused(
             capsys, scene, '--port', str(port))
     assert 'give another --port' in refused(capsys, scene, '--host', '192.0.2.1')
+
+
+@pytest.mark.parametrize('prefix, site', [
+    ('', 'lib/python3.12/site-packages'), ('', 'Lib/site-packages'),
+    ('local', 'local/lib/python3.12/dist-packages')])
+def test_the_scenes_are_found_beside_the_library_wherever_it_was_installed(
+        prefix, site, tmp_path, monkeypatch):
+    module = tmp_path / site / 'boat_buoyancy' / 'tools' / 'command_line.py'
+    monkeypatch.setattr(command_line, '__file__', str(module))
+    assert command_line.shipped_scenes() == []
+    folder = tmp_path / prefix / 'share' / 'boat_buoyancy' / 'config'
+    folder.mkdir(parents=True)
+    (folder / 'barge.yaml').touch()
+    assert command_line.shipped_scenes() == [folder / 'barge.yaml']
 
 
 def test_angles_are_drawn_in_the_words_of_the_boat():
