@@ -37,6 +37,8 @@ def served(host, port):
     # It says more than a user wants to read.
     with redirect_stdout(io.StringIO()):
         server = viser.ViserServer(host=host, port=port, label='boat_buoyancy', verbose=False)
+    # Whoever has the page could ask for a way to it from everywhere, by another host.
+    server.request_share_url = lambda *_, **__: None
     try:
         if port not in (0, server.get_port()):
             # It takes the next one by itself.
