@@ -28,7 +28,10 @@ import webbrowser
 from .live_boat import LiveBoat
 from .loop import Loop, PICTURES
 from .. import command_line
+from ...physics.compiled import notice
 from ...physics.scene.parameters import NODE_NAME
+from ...physics.scene.scene import load_scene
+from ...physics.stepping.march import march_by
 from ...ros.ending import told_to_end
 
 PROGRAM, HOST, PORT = 'buoyancy_view', '127.0.0.1', 8080
@@ -78,6 +81,9 @@ def work(arguments):
         raise ValueError('expected either a SCENE, as config/waves.yaml, or --ros for running '
                          'nodes')
     if arguments.scene is not None:
+        # It is compiled while the boat is made.
+        if compiling := notice(march_by(load_scene(arguments.scene).integrator)):
+            print(f'{PROGRAM}: {compiling}', file=sys.stderr, flush=True)
         boat = LiveBoat(arguments.scene)
     check_port(arguments.host, arguments.port)
     command_line.require_extra('view', 'the page', 'viser')
