@@ -105,12 +105,13 @@ class Stage:
                 self._world.position = (-x, -y, 0.0)
 
     def look(self, camera, boat):
-        """Look at a boat in all pages as one of `CAMERAS` says."""
+        """Look at a boat in all pages, and those to come, as one of `CAMERAS` says."""
         self.following = camera != 'free'
         if self.following:
-            for client in self._server.get_clients().values():
-                self._look_from(client.camera, length_of(boat) * (
-                    FROM_ABOVE if camera == 'from above' else FROM_ABEAM))
+            place = length_of(boat) * (FROM_ABOVE if camera == 'from above' else FROM_ABEAM)
+            clients = self._server.get_clients().values()
+            for view in (self._server.initial_camera, *(client.camera for client in clients)):
+                self._look_from(view, place)
 
     @staticmethod
     def _look_from(camera, place):
