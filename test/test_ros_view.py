@@ -21,8 +21,9 @@ import time
 from boat_buoyancy.physics import load_scene
 from boat_buoyancy.tools.view import main, remote_boat
 from boat_buoyancy.tools.view.remote import Remote
+from geometry_msgs.msg import WrenchStamped
 import pytest
-from ros_probe import BoatProcess, LATCHED, new_namespace, Probe
+from ros_probe import BEST_EFFORT, BoatProcess, LATCHED, new_namespace, Probe
 from std_msgs.msg import Float64MultiArray
 
 WAVES = {'sea.waves': [0.2, 4.0, 0.3, 1.0], 'boat.mass': 2100.0}
@@ -96,7 +97,10 @@ def test_a_node_is_pushed_paused_stepped_and_reset(seen):
         remote.push(4000.0, 0.0)
         assert time.monotonic() < end
         time.sleep(0.1)
+    # In real time while it runs; a paused node says nothing.
+    until(lambda: remote.speed.held > 0.5)
     remote.pause(True)
+    until(lambda: remote.speed.held == 0.0)
     remote.step()
     remote.reset()
     until(lambda: abs(next(iter(remote.snapshots.values())).position[0]) < 0.1)
@@ -126,6 +130,30 @@ def test_a_node_that_goes_away_and_comes_back_is_shown_as_such():
                 assert remote.begun != begun
         finally:
             remote.stop()
+
+
+def test_of_two_nodes_the_pushed_one_is_let_go_when_the_page_turns_to_the_other():
+    # They would hold a push for ever.
+    held = {'thrust.timeout': 0.0}
+    with (BoatProcess(held) as one, BoatProcess({**held, 'boat.mass': 1900.0}) as two,
+          Probe(one.namespace) as probe):
+        thrusts, others = (probe.listen(WrenchStamped, f'{boat.namespace}/thrust', BEST_EFFORT)
+                           for boat in (one, two))
+        names = [boat.namespace.strip('/') for boat in (one, two)]
+        remote = Remote(['-r', f'__ns:={one.namespace}'])
+        try:
+            assert remote.wait(20.0)
+            until(lambda: list(remote.snapshots) == names)
+            probe.until(lambda: thrusts, doing=lambda: remote.push(500.0, 0.0))
+            remote.push(500.0, 0.0)
+            remote.switch(two.namespace)
+            assert remote.scene.boat.mass == 1900.0 and list(remote.snapshots) == names[::-1]
+            probe.until(lambda: thrusts[-1].wrench.force.x == 0.0)
+            probe.until(lambda: others, doing=lambda: remote.push(500.0, 0.0))
+            assert others[-1].wrench.force.x == 500.0
+        finally:
+            remote.stop()
+        probe.until(lambda: others[-1].wrench.force.x == 0.0)
 
 
 def test_news_that_cannot_be_read_are_said_until_it_can_be_again(seen):

@@ -28,7 +28,7 @@ from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
 from .history import History
-from .loop import Speed
+from .loop import MEASURED, Speed
 from .snapshot import Snapshot
 from ...physics.rotation import to_roll_pitch_yaw
 from ...physics.scene.parameter_values import checked
@@ -58,7 +58,7 @@ class RemoteBoat:
         self.scene = self.trouble = self._wrong = self._odometry = self._waves = self._sea = None
         self.history, self.paused, self.begun = History(), False, 0
         self._probes = np.zeros((0, len(CLOUD_FIELDS)))
-        self._since = None
+        self._since, self._speed = None, Speed()
         prefix = namespace.rstrip('/')
         for kind, topic, take, profile in (
                 (Odometry, 'odom', self._take_odometry, qos.OUTPUT),
@@ -117,6 +117,9 @@ class RemoteBoat:
         velocity = message.twist.twist.linear
         if self._since is None or stamp < self._since[1]:
             self._since = now, stamp
+        elif now - self._since[0] >= MEASURED:
+            (since, first), self._since = self._since, (now, stamp)
+            self._speed = Speed(held=(stamp - first) / (now - since))
         if self.history.is_due(stamp):
             turn = pose.orientation
             self.history.add(stamp, (pose.position.x, pose.position.y, pose.position.z),
@@ -135,11 +138,9 @@ class RemoteBoat:
 
     @property
     def speed(self):
-        """Return the `Speed` held since it was met; a step's cost is the node's own affair."""
-        if self._since is None or self._odometry is None:
-            return Speed()
-        passed = time.monotonic() - self._since[0]
-        return Speed(held=(_seconds(self._odometry) - self._since[1]) / max(passed, 1e-9))
+        """Return the `Speed` held in the last second; a step's cost is the node's own affair."""
+        silent = self._since is None or time.monotonic() - self._since[0] > 2.0 * MEASURED
+        return Speed() if silent else self._speed
 
     def snapshot(self):
         """Return the `Snapshot` of what came last; None before enough has come."""
