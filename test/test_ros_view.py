@@ -209,3 +209,5 @@ def test_a_boat_that_cannot_be_made_here_is_said_while_the_program_looks_for_one
 def test_arguments_that_ros_does_not_take_are_refused():
     with pytest.raises(ValueError, match='^--ros: '):
         Remote(['-r', 'nonsense'])
+    with pytest.raises(ValueError, match='^--port: what follows --ros is for ROS; give it before'):
+        main.found(['-r', '__ns:=/red', '--port', '0'], threading.Event())

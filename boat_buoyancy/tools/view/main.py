@@ -23,6 +23,7 @@ import argparse
 from pathlib import Path
 import socket
 import sys
+from threading import Thread
 import webbrowser
 
 from .live_boat import LiveBoat
@@ -53,7 +54,7 @@ def parser():
     option('--no-open', action='store_true', help='do not open a browser')
     option('--ros', nargs=argparse.REMAINDER, metavar='...',
            help='show the boats of running nodes in place of a SCENE; what follows is for ROS, as '
-           '-r __ns:=/red for the one to look at first')
+           '-r __ns:=/red for the one to look at first; options of ours go before it')
     return arguments
 
 
@@ -111,6 +112,9 @@ def found(arguments, told):
             raise
         raise ValueError(f'--ros needs ROS 2 Jazzy ({error}): source /opt/ros/jazzy/setup.bash, '
                          'or run ./install.sh ros,view') from None
+    if ours := sorted({'--port', '--host', '--no-open'}.intersection(
+            word.partition('=')[0] for word in arguments)):
+        raise ValueError(f'{" ".join(ours)}: what follows --ros is for ROS; give it before --ros')
     remote = Remote(arguments)
     where = '' if remote.wanted == '/' else f' in {remote.wanted}'
     print(f'{PROGRAM}: looking for a node named {NODE_NAME}{where}', flush=True)
@@ -132,7 +136,8 @@ def show(floating, arguments, told):
         address = f'http://{arguments.host}:{server.get_port()}'
         print(f'{PROGRAM}: {floating.name} floats at {address} until Ctrl-C', flush=True)
         if not arguments.no_open:
-            webbrowser.open(address)
+            # A browser in a terminal comes back when its user leaves it.
+            Thread(target=webbrowser.open, args=(address,), daemon=True).start()
         while not told.wait(1.0 / PICTURES) and not floating.ended.done():
             in_turn(server, page.show)
 
