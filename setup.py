@@ -49,7 +49,7 @@ setup(
         # Writes recordings; MCAP's own reader reads them back in the tests.
         'bag': ['rosbags'],
         # The page of buoyancy_view.
-        'view': ['viser'],
+        'view': ['viser>=1.1'],
         'test': ['distributed', 'hypothesis', 'matplotlib', 'mcap-ros2-support', 'pytest',
                  'pytest-xdist', 'rosbags', 'scipy', 'trimesh'],
     },

@@ -15,12 +15,16 @@
 """What buoyancy_view --ros shows of running nodes is what they publish; what it asks is done."""
 
 import signal
+import threading
 import time
 
 from boat_buoyancy.physics import load_scene
+from boat_buoyancy.tools.view import main, remote_boat
 from boat_buoyancy.tools.view.remote import Remote
+from geometry_msgs.msg import WrenchStamped
 import pytest
-from ros_probe import BoatProcess, new_namespace, Probe
+from ros_probe import BEST_EFFORT, BoatProcess, LATCHED, new_namespace, Probe
+from std_msgs.msg import Float64MultiArray
 
 WAVES = {'sea.waves': [0.2, 4.0, 0.3, 1.0], 'boat.mass': 2100.0}
 
@@ -93,7 +97,10 @@ def test_a_node_is_pushed_paused_stepped_and_reset(seen):
         remote.push(4000.0, 0.0)
         assert time.monotonic() < end
         time.sleep(0.1)
+    # In real time while it runs; a paused node says nothing.
+    until(lambda: remote.speed.held > 0.5)
     remote.pause(True)
+    until(lambda: remote.speed.held == 0.0)
     remote.step()
     remote.reset()
     until(lambda: abs(next(iter(remote.snapshots.values())).position[0]) < 0.1)
@@ -125,6 +132,82 @@ def test_a_node_that_goes_away_and_comes_back_is_shown_as_such():
             remote.stop()
 
 
+def test_of_two_nodes_the_pushed_one_is_let_go_when_the_page_turns_to_the_other():
+    # They would hold a push for ever.
+    held = {'thrust.timeout': 0.0}
+    with (BoatProcess(held) as one, BoatProcess({**held, 'boat.mass': 1900.0}) as two,
+          Probe(one.namespace) as probe):
+        thrusts, others = (probe.listen(WrenchStamped, f'{boat.namespace}/thrust', BEST_EFFORT)
+                           for boat in (one, two))
+        names = [boat.namespace.strip('/') for boat in (one, two)]
+        remote = Remote(['-r', f'__ns:={one.namespace}'])
+        try:
+            assert remote.wait(20.0)
+            until(lambda: list(remote.snapshots) == names)
+            probe.until(lambda: thrusts, doing=lambda: remote.push(500.0, 0.0))
+            remote.push(500.0, 0.0)
+            remote.switch(two.namespace)
+            assert remote.scene.boat.mass == 1900.0 and list(remote.snapshots) == names[::-1]
+            probe.until(lambda: thrusts[-1].wrench.force.x == 0.0)
+            probe.until(lambda: others, doing=lambda: remote.push(500.0, 0.0))
+            assert others[-1].wrench.force.x == 500.0
+        finally:
+            remote.stop()
+        probe.until(lambda: others[-1].wrench.force.x == 0.0)
+
+
+def test_news_that_cannot_be_read_are_said_until_it_can_be_again(seen):
+    boat, remote = seen
+    with Probe(boat.namespace) as probe:
+        waves = probe.node.create_publisher(Float64MultiArray, f'{boat.namespace}/waves', LATCHED)
+        probe.until(waves.get_subscription_count)
+        for data in ([0.2, 4.0, 0.3], [0.2, -4.0, 0.3, 1.0]):
+            waves.publish(Float64MultiArray(data=data))
+            sentence = until(lambda: remote.fault)
+            assert sentence.startswith(f'{boat.namespace}/boat_buoyancy: waves: ')
+            assert remote.snapshots == {} and remote.troubles == {sentence}
+            waves.publish(Float64MultiArray(data=[0.1, 5.0, 0.3, 1.0]))
+            until(lambda: remote.fault is None and remote.snapshots)
+        snapshot = next(iter(remote.snapshots.values()))
+        assert snapshot.water.waves.tolist() == [[0.1, 5.0, 0.3, 1.0]]
+    assert not remote.ended.done()
+
+
+def test_what_ends_the_listening_ends_the_program(monkeypatch):
+    monkeypatch.setattr(Remote, '_look', lambda _: 1 / 0)
+    remote = Remote([])
+    try:
+        with pytest.raises(ZeroDivisionError):
+            remote.ended.result(20.0)
+    finally:
+        remote.stop()
+
+
+def test_a_boat_that_cannot_be_made_here_is_said_while_the_program_looks_for_one(
+        monkeypatch, capfd):
+    def refuse(*_):
+        raise ValueError('hull.mesh: no such file')
+    monkeypatch.setattr(remote_boat, 'scene_from_values', refuse)
+    told = threading.Event()
+    with BoatProcess({}) as boat:
+        looking = threading.Thread(
+            target=lambda: main.found(['-r', f'__ns:={boat.namespace}'], told).stop())
+        looking.start()
+        # Two looks more, at which nothing is said again.
+        said = []
+        try:
+            until(lambda: said.append(capfd.readouterr().err) or any(said))
+            time.sleep(2.5)
+        finally:
+            told.set()
+            looking.join()
+    said.append(capfd.readouterr().err)
+    assert ''.join(said) == (f'buoyancy_view: {boat.namespace}/boat_buoyancy: parameters: '
+                             'hull.mesh: no such file\n')
+
+
 def test_arguments_that_ros_does_not_take_are_refused():
     with pytest.raises(ValueError, match='^--ros: '):
         Remote(['-r', 'nonsense'])
+    with pytest.raises(ValueError, match='^--port: what follows --ros is for ROS; give it before'):
+        main.found(['-r', '__ns:=/red', '--port', '0'], threading.Event())

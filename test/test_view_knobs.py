@@ -23,10 +23,10 @@ from boat_buoyancy.physics import load_scene
 from boat_buoyancy.physics.hydrostatics.rest import rest_attitude
 from boat_buoyancy.physics.scene.parameters import PARAMETERS
 from boat_buoyancy.physics.scene.scene import scene_from_values
-from boat_buoyancy.tools import report
+from boat_buoyancy.tools import command_line, report
 from boat_buoyancy.tools.view import main
 from boat_buoyancy.tools.view.knob_panel import read_value
-from boat_buoyancy.tools.view.knobs import knobs, trimmed
+from boat_buoyancy.tools.view.knobs import knobs, trimmed, turned
 from boat_buoyancy.tools.view.live_boat import LiveBoat
 from boat_buoyancy.tools.view.readout import figures, stable_step
 from boat_buoyancy.tools.view.shapes import (CELLS, hull_mesh, lift_arrows, LINED, probe_colors,
@@ -73,6 +73,15 @@ def test_a_knob_changes_its_own_number_and_no_other():
                 before, after = list(scene.values[knob.name]), list(changed.values[knob.name])
                 assert after.pop(knob.index) == value
                 assert before.pop(knob.index) != value and after == before
+
+
+@pytest.mark.parametrize('name, before, after', [
+    ('damping.probe', 3, 1), ('damping.linear_retention', 3, 1),
+    ('damping.angular_retention', 3, 1)])
+def test_there_is_a_knob_for_every_number_that_a_parameter_has_by_now(name, before, after):
+    for numbers in (before, after):
+        scene = scene_from_values({name: [0.5] * numbers})
+        assert [index for one, index in turned(scene) if one == name] == list(range(numbers))
 
 
 @pytest.mark.parametrize('end, axis, sign', [
@@ -196,6 +205,20 @@ def test_what_is_wrong_is_one_line(capsys, tmp_path):
         assert f'cannot listen on port {port} of 127.0.0.1: Address already in use' in refused(
             capsys, scene, '--port', str(port))
     assert 'give another --port' in refused(capsys, scene, '--host', '192.0.2.1')
+
+
+@pytest.mark.parametrize('prefix, site', [
+    ('', 'lib/python3.12/site-packages'), ('', 'Lib/site-packages'),
+    ('local', 'local/lib/python3.12/dist-packages')])
+def test_the_scenes_are_found_beside_the_library_wherever_it_was_installed(
+        prefix, site, tmp_path, monkeypatch):
+    module = tmp_path / site / 'boat_buoyancy' / 'tools' / 'command_line.py'
+    monkeypatch.setattr(command_line, '__file__', str(module))
+    assert command_line.shipped_scenes() == []
+    folder = tmp_path / prefix / 'share' / 'boat_buoyancy' / 'config'
+    folder.mkdir(parents=True)
+    (folder / 'barge.yaml').touch()
+    assert command_line.shipped_scenes() == [folder / 'barge.yaml']
 
 
 def test_angles_are_drawn_in_the_words_of_the_boat():

@@ -246,6 +246,21 @@ def test_a_boat_that_is_looked_at_moves_bitwise_as_the_simulation_alone(window):
                     == getattr(alone.state, part).tolist())
 
 
+def test_the_knobs_are_made_anew_when_a_parameter_has_fewer_numbers_by_now(window):
+    loop = Loop(LiveBoat(CONFIG / 'default.yaml'))
+    with shown(loop) as address:
+        loop.tune({'damping.probe': [100.0, 100.0, 200.0]})
+        one = window(address)
+        one.wait_for('let down')
+        tab(one, 'Damping')
+        one.wait_for('damping probe x (N·s/m)')
+        loop.tune({'damping.probe': [100.0]})
+        # Made anew, they begin with the first tab again.
+        one.wait_for('let down')
+        tab(one, 'Damping')
+        one.wait_for('damping probe (N·s/m)')
+
+
 def test_physics_waits_for_no_browser_that_stands_still(driver):
     viser = pytest.importorskip('viser')
     loop = Loop(LiveBoat(CONFIG / 'waves.yaml'))

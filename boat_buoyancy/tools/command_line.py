@@ -71,9 +71,11 @@ def scene_parser(program, description, example, many=False):
 
 def shipped_scenes():
     """Return the parameter files that come with the package, from its source or as installed."""
-    source = Path(__file__).parents[2] / 'config'
-    installed = Path(sys.prefix) / 'share' / 'boat_buoyancy' / 'config'
-    return sorted((source if source.is_dir() else installed).glob('*.yaml'))
+    here = Path(__file__)
+    # Wherever it was installed, for one user or by colcon, share is beside the lib it is in.
+    folders = [here.parents[2] / 'config',
+               *(parent / 'share' / 'boat_buoyancy' / 'config' for parent in here.parents)]
+    return next(filter(None, (sorted(folder.glob('*.yaml')) for folder in folders)), [])
 
 
 def require_extra(extra, what, *modules):

@@ -105,6 +105,11 @@ def knobs(scene):
                     for knob in _of(name, scene)] for group, names in GROUPS.items()}
 
 
+def turned(scene):
+    """Return [(name, index)] of all numbers that have a knob: of how many changes with a value."""
+    return [(knob.name, knob.index) for group in knobs(scene).values() for knob in group]
+
+
 def _of(name, scene):
     """Yield the knobs of a parameter."""
     parameter, value = PARAMETERS[name], scene.values[name]

@@ -23,12 +23,16 @@ import argparse
 from pathlib import Path
 import socket
 import sys
+from threading import Thread
 import webbrowser
 
 from .live_boat import LiveBoat
 from .loop import Loop, PICTURES
 from .. import command_line
+from ...physics.compiled import notice
 from ...physics.scene.parameters import NODE_NAME
+from ...physics.scene.scene import load_scene
+from ...physics.stepping.march import march_by
 from ...ros.ending import told_to_end
 
 PROGRAM, HOST, PORT = 'buoyancy_view', '127.0.0.1', 8080
@@ -50,7 +54,7 @@ def parser():
     option('--no-open', action='store_true', help='do not open a browser')
     option('--ros', nargs=argparse.REMAINDER, metavar='...',
            help='show the boats of running nodes in place of a SCENE; what follows is for ROS, as '
-           '-r __ns:=/red for the one to look at first')
+           '-r __ns:=/red for the one to look at first; options of ours go before it')
     return arguments
 
 
@@ -78,6 +82,9 @@ def work(arguments):
         raise ValueError('expected either a SCENE, as config/waves.yaml, or --ros for running '
                          'nodes')
     if arguments.scene is not None:
+        # It is compiled while the boat is made.
+        if compiling := notice(march_by(load_scene(arguments.scene).integrator)):
+            print(f'{PROGRAM}: {compiling}', file=sys.stderr, flush=True)
         boat = LiveBoat(arguments.scene)
     check_port(arguments.host, arguments.port)
     command_line.require_extra('view', 'the page', 'viser')
@@ -88,7 +95,7 @@ def work(arguments):
         else:
             floating = found(arguments.ros, told)
         try:
-            if not told.is_set():
+            if not (told.is_set() or floating.ended.done()):
                 show(floating, arguments, told)
         finally:
             floating.stop()
@@ -105,11 +112,18 @@ def found(arguments, told):
             raise
         raise ValueError(f'--ros needs ROS 2 Jazzy ({error}): source /opt/ros/jazzy/setup.bash, '
                          'or run ./install.sh ros,view') from None
+    if ours := sorted({'--port', '--host', '--no-open'}.intersection(
+            word.partition('=')[0] for word in arguments)):
+        raise ValueError(f'{" ".join(ours)}: what follows --ros is for ROS; give it before --ros')
     remote = Remote(arguments)
     where = '' if remote.wanted == '/' else f' in {remote.wanted}'
     print(f'{PROGRAM}: looking for a node named {NODE_NAME}{where}', flush=True)
-    while not told.is_set() and not remote.wait(0.2):
-        pass
+    said = set()
+    while not (told.is_set() or remote.ended.done() or remote.wait(0.2)):
+        # A boat that cannot be made here, as of a mesh that is not on this machine.
+        for sentence in sorted(remote.troubles - said):
+            print(f'{PROGRAM}: {command_line.one_line(sentence)}', file=sys.stderr, flush=True)
+            said.add(sentence)
     return remote
 
 
@@ -122,7 +136,8 @@ def show(floating, arguments, told):
         address = f'http://{arguments.host}:{server.get_port()}'
         print(f'{PROGRAM}: {floating.name} floats at {address} until Ctrl-C', flush=True)
         if not arguments.no_open:
-            webbrowser.open(address)
+            # A browser in a terminal comes back when its user leaves it.
+            Thread(target=webbrowser.open, args=(address,), daemon=True).start()
         while not told.wait(1.0 / PICTURES) and not floating.ended.done():
             in_turn(server, page.show)
 

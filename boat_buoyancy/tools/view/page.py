@@ -17,6 +17,7 @@
 from html import escape
 
 from .knob_panel import KnobPanel
+from .knobs import turned
 from .motion_panel import MotionPanel
 from .number_panel import NumberPanel
 from .readout import figures, stable_step
@@ -45,23 +46,24 @@ class Page:
         gui.configure_theme(show_logo=False, show_share_button=False)
         gui.main_panel.dock_right()
         gui.main_panel.set_width(350)
-        self._worker = Worker(self._refuse)
+        # What is only shown takes a while, and nothing that moves the boat waits for it.
+        self._worker, self._finder = Worker(self._refuse), Worker(self._refuse)
         self._stage = Stage(server, boat.scene.boat)
         self._message = gui.add_html('', visible=False)
         self._motion = MotionPanel(gui, boat, self._give, lambda: length_of(boat.scene.boat))
-        camera = gui.add_dropdown('camera', CAMERAS, initial_value=CAMERAS[0])
+        self._camera = gui.add_dropdown('camera', CAMERAS, initial_value=CAMERAS[0])
 
-        @camera.on_update
+        @self._camera.on_update
         async def _(event):
             if event.client_id is not None:
-                self._stage.look(camera.value, boat.scene.boat)
+                self._stage.look(self._camera.value, boat.scene.boat)
 
         save = gui.add_button('Save as YAML', hint=(
             'A parameter file of the scene as tuned, which says what was changed.'))
         save.on_click(self._save)
         self._knobs = KnobPanel(gui, self._set)
         self._numbers = NumberPanel(gui, boat.history)
-        self._scene = self._begun = None
+        self._scene = self._knobs_of = None
         self._sentence, self._shown_sentence, self._stable = '', '', None
         self._pictures = 0
         self.show()
@@ -70,15 +72,19 @@ class Page:
         """Show how things are now."""
         boat = self._boat
         self._stage.show(boat.snapshots)
-        scene = boat.scene
-        if boat.begun != self._begun:
-            self._begun = boat.begun
+        begun, scene = boat.begun, boat.scene
+        if self._knobs_of is not None and begun != self._knobs_of[0]:
+            self._stage.look(self._camera.value, scene.boat)
+        # A change can give a parameter more numbers, and a node's come after it was met.
+        knobs_of = begun, turned(scene) if scene is not self._scene else self._knobs_of[1]
+        if knobs_of != self._knobs_of:
+            self._knobs_of = knobs_of
             self._knobs.rebuild(scene)
         if scene is not self._scene:
             self._scene = scene
             self._found = figures(scene)
             self._numbers.show_scene(scene, self._found)
-            self._worker.give('stable', self._find_stable, scene)
+            self._finder.give('stable', self._find_stable, scene)
         if self._stable is not None:
             of_scene, step = self._stable
             self._stable = None

@@ -52,7 +52,9 @@ class Remote:
             raise ValueError(f'--ros: {error}') from None
         self._node = Node('buoyancy_view', context=self._context)
         self.wanted = self._node.get_namespace()
-        self._boats, self._present, self._chosen, self._released = {}, set(), None, None
+        self._boats, self._present, self._chosen = {}, set(), None
+        # The boat that is pushed, and until when.
+        self._pushed = None
         self._began, self.ended = {}, Future()
         self._node.create_timer(LOOK, self._look)
         self._node.create_timer(0.1, self._let_go)
@@ -69,9 +71,17 @@ class Remote:
             self._executor.spin()
         except ExternalShutdownException:
             pass
+        except BaseException as error:
+            self.ended.set_exception(error)
+
+    @property
+    def troubles(self):
+        """Return the sentences of what is wrong with the boats, a set."""
+        return {boat.trouble for boat in self._boats.values()} - {None}
 
     def stop(self):
-        """Leave the network."""
+        """Leave the network, and no boat that is still pushed."""
+        self._release()
         self._executor.shutdown()
         self._thread.join(2.0)
         self._node.destroy_node()
@@ -91,7 +101,7 @@ class Remote:
             self._boats[namespace].met()
         for namespace in self._present - present:
             boat = self._boats[namespace]
-            boat.trouble = f'{boat.path} is gone; it is shown again when it comes back'
+            boat.gone()
         self._present = present
         for boat in self._boats.values():
             if boat.scene is None and boat.namespace in present:
@@ -110,9 +120,13 @@ class Remote:
 
     def _let_go(self):
         """End a push: a node whose thrust.timeout is 0 would hold it for ever."""
-        if self._released is not None and time.monotonic() > self._released:
-            self._released = None
-            self._boat.push(0.0, 0.0)
+        if self._pushed is not None and time.monotonic() > self._pushed[1]:
+            self._release()
+
+    def _release(self):
+        pushed, self._pushed = self._pushed, None
+        if pushed is not None:
+            pushed[0].push(0.0, 0.0)
 
     # What a page shows.
 
@@ -157,12 +171,14 @@ class Remote:
         """Look at another boat."""
         if self._boats[namespace].scene is None:
             raise ValueError(f'{namespace}: nothing has come of its parameters yet')
+        self._release()
         self._chosen = namespace
 
     def push(self, ahead, turn):
         """Push for `PUSH_LASTS` s."""
-        self._boat.push(ahead, turn)
-        self._released = time.monotonic() + PUSH_LASTS
+        boat = self._boat
+        boat.push(ahead, turn)
+        self._pushed = boat, time.monotonic() + PUSH_LASTS
 
     def lift(self, height):
         """Refuse: a node has no way to be asked."""

@@ -14,6 +14,7 @@
 
 """A boat that a running node floats, seen through its topics and parameters."""
 
+from functools import partial
 from threading import Event
 import time
 
@@ -27,7 +28,7 @@ from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
 from .history import History
-from .loop import Speed
+from .loop import MEASURED, Speed
 from .snapshot import Snapshot
 from ...physics.rotation import to_roll_pitch_yaw
 from ...physics.scene.parameter_values import checked
@@ -54,16 +55,17 @@ class RemoteBoat:
         """Listen."""
         self._node, self.namespace = node, namespace
         self.path = f'{namespace.rstrip("/")}/{NODE_NAME}'
-        self.scene = self.trouble = self._odometry = self._sea = None
+        self.scene = self.trouble = self._wrong = self._odometry = self._waves = self._sea = None
         self.history, self.paused, self.begun = History(), False, 0
         self._probes = np.zeros((0, len(CLOUD_FIELDS)))
-        self._since = None
+        self._since, self._speed = None, Speed()
         prefix = namespace.rstrip('/')
         for kind, topic, take, profile in (
                 (Odometry, 'odom', self._take_odometry, qos.OUTPUT),
                 (PointCloud2, 'probes', self._take_probes, qos.OUTPUT),
                 (Float64MultiArray, 'waves', self._take_waves, qos.SEA_IN_FORCE)):
-            node.create_subscription(kind, f'{prefix}/{topic}', take, profile)
+            node.create_subscription(kind, f'{prefix}/{topic}', partial(self._try, topic, take),
+                                     profile)
         self._thrust = node.create_publisher(WrenchStamped, f'{prefix}/thrust', qos.THRUST)
         self._clients = {name: node.create_client(kind, f'{self.path}/{name}')
                          for name, kind in (('get_parameters', GetParameters),
@@ -75,25 +77,38 @@ class RemoteBoat:
 
     def met(self):
         """Ask a node that came, or came back, for all that is to be known of it."""
-        self.trouble = None
+        self.trouble = self._wrong = None
         self.begun += 1
         self.look()
+
+    def gone(self):
+        """Take note that the node went away."""
+        self.trouble = f'{self.path} is gone; it is shown again when it comes back'
+        self._wrong = None
+
+    def _try(self, what, take, news):
+        """Take news of ``what``; where that fails, say so until it goes well again."""
+        try:
+            take(news)
+        except Exception as error:
+            self.trouble, self._wrong = f'{self.path}: {what}: {error}', what
+        else:
+            if self._wrong == what:
+                self.trouble = self._wrong = None
 
     def look(self):
         """Ask for the parameters, without waiting for them."""
         request = GetParameters.Request(names=list(PARAMETERS))
         future = self._clients['get_parameters'].call_async(request)
-        future.add_done_callback(lambda done: self._take_parameters(done.result()))
+        future.add_done_callback(partial(self._try, 'parameters', self._take_parameters))
 
-    def _take_parameters(self, answer):
+    def _take_parameters(self, done):
         values = {name: parameter_value_to_python(value)
-                  for name, value in zip(PARAMETERS, answer.values)}
-        try:
-            self.scene = scene_from_values({
-                name: value for name, value in values.items() if value is not None}, self.scene)
-            self.trouble = None
-        except ValueError as error:
-            self.trouble = f'{self.path}: {error}'
+                  for name, value in zip(PARAMETERS, done.result().values)}
+        scene = scene_from_values({
+            name: value for name, value in values.items() if value is not None}, self.scene)
+        self._sea = _sea_of(scene, self._waves)
+        self.scene = scene
 
     def _take_odometry(self, message):
         self._odometry = message
@@ -102,6 +117,9 @@ class RemoteBoat:
         velocity = message.twist.twist.linear
         if self._since is None or stamp < self._since[1]:
             self._since = now, stamp
+        elif now - self._since[0] >= MEASURED:
+            (since, first), self._since = self._since, (now, stamp)
+            self._speed = Speed(held=(stamp - first) / (now - since))
         if self.history.is_due(stamp):
             turn = pose.orientation
             self.history.add(stamp, (pose.position.x, pose.position.y, pose.position.z),
@@ -113,28 +131,26 @@ class RemoteBoat:
             message.width, len(CLOUD_FIELDS)).astype(float)
 
     def _take_waves(self, message):
-        self._sea = np.reshape(message.data, (-1, 4))
+        waves = np.reshape(message.data, (-1, 4))
+        if self.scene is not None:
+            self._sea = _sea_of(self.scene, waves)
+        self._waves = waves
 
     @property
     def speed(self):
-        """Return the `Speed` held since it was met; a step's cost is the node's own affair."""
-        if self._since is None or self._odometry is None:
-            return Speed()
-        passed = time.monotonic() - self._since[0]
-        return Speed(held=(_seconds(self._odometry) - self._since[1]) / max(passed, 1e-9))
+        """Return the `Speed` held in the last second; a step's cost is the node's own affair."""
+        silent = self._since is None or time.monotonic() - self._since[0] > 2.0 * MEASURED
+        return Speed() if silent else self._speed
 
     def snapshot(self):
         """Return the `Snapshot` of what came last; None before enough has come."""
         scene, message, probes = self.scene, self._odometry, self._probes
         if scene is None or message is None or len(probes) != len(scene.boat.hull.share):
             return None
-        sea = scene.sea
-        if self._sea is not None and not np.array_equal(self._sea, sea.waves):
-            sea = type(sea)(self._sea, sea.current, sea.depth, sea.gravity, sea.wind)
         pose, stamp = message.pose.pose, _seconds(message)
         place, turn = pose.position, pose.orientation
         return Snapshot(
-            scene.boat, sea, stamp, stamp, np.array([place.x, place.y, place.z]),
+            scene.boat, self._sea, stamp, stamp, np.array([place.x, place.y, place.z]),
             np.array([turn.x, turn.y, turn.z, turn.w]), probes[:, 3], probes[:, 4])
 
     # What it is asked.
@@ -174,6 +190,14 @@ class RemoteBoat:
         """Stop or go on."""
         self._answer('set_paused', SetBool.Request(data=paused))
         self.paused = paused
+
+
+def _sea_of(scene, waves):
+    """Return the sea of a scene with the waves (n, 4) that its node says are in force."""
+    sea = scene.sea
+    if waves is None or np.array_equal(waves, sea.waves):
+        return sea
+    return type(sea)(waves, sea.current, sea.depth, sea.gravity, sea.wind)
 
 
 def _seconds(message):

@@ -37,6 +37,8 @@ def served(host, port):
     # It says more than a user wants to read.
     with redirect_stdout(io.StringIO()):
         server = viser.ViserServer(host=host, port=port, label='boat_buoyancy', verbose=False)
+    # Whoever has the page could ask for a way to it from everywhere, by another host.
+    server.request_share_url = lambda *_, **__: None
     try:
         if port not in (0, server.get_port()):
             # It takes the next one by itself.
@@ -103,12 +105,13 @@ class Stage:
                 self._world.position = (-x, -y, 0.0)
 
     def look(self, camera, boat):
-        """Look at a boat in all pages as one of `CAMERAS` says."""
+        """Look at a boat in all pages, and those to come, as one of `CAMERAS` says."""
         self.following = camera != 'free'
         if self.following:
-            for client in self._server.get_clients().values():
-                self._look_from(client.camera, length_of(boat) * (
-                    FROM_ABOVE if camera == 'from above' else FROM_ABEAM))
+            place = length_of(boat) * (FROM_ABOVE if camera == 'from above' else FROM_ABEAM)
+            clients = self._server.get_clients().values()
+            for view in (self._server.initial_camera, *(client.camera for client in clients)):
+                self._look_from(view, place)
 
     @staticmethod
     def _look_from(camera, place):
