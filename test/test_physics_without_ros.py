@@ -50,8 +50,8 @@ for name in found:
 # What `buoyancy_view --ros` imports, and nothing else does.
 OF_ROS = ('boat_buoyancy.tools.view.remote', 'boat_buoyancy.tools.view.remote_boat')
 # The page itself, where the extra that draws it is not there.
-PAGE = () if find_spec('viser') else tuple(f'boat_buoyancy.tools.view.{name}' for name in (
-    'knob_panel', 'motion_panel', 'number_panel', 'page', 'stage'))
+PAGE = () if find_spec('viser') else (
+    'boat_buoyancy.tools.view.page', 'boat_buoyancy.tools.view.stage')
 
 
 def imported(package, blocked, then=''):
