@@ -152,6 +152,14 @@ def test_an_illegal_value_is_refused_with_the_sentence_of_the_node(default, wind
     one.click('//button[normalize-space()="Set"]')
     text = one.wait_for(draft_of({'boat.mass': 2500.0}))
     assert str(refusal.value) not in text
+    # The field follows what another knob, or another page, sets.
+    another = window(default)
+    another.wait_for('mass (kg)')
+    turn(another, 'mass (kg)', 3000)
+    end = time.monotonic() + 20.0
+    while one.run(VALUE, FIELD.format('value')) != '3000.0':
+        assert time.monotonic() < end
+        time.sleep(0.1)
 
 
 def test_a_saved_scene_is_read_as_the_same_boat(default, window, tmp_path):

@@ -70,6 +70,7 @@ class KnobPanel:
         self._integrator.value = scene.integrator
         self._rate.value = scene.rate
         self._substeps.value = scene.substeps
+        self._follow()
 
     def _add_slider(self, knob):
         slider = self._gui.add_slider(knob.label, knob.low, knob.high, knob.step,
@@ -117,10 +118,16 @@ class KnobPanel:
         button = gui.add_button('Set')
         about = gui.add_markdown('')
 
+        told = None
+
         def tell():
-            now = self._scene.values.get(name.value)
-            value.value = str(list(now) if isinstance(now, tuple) else now)
-            about.content = meaning(name.value)
+            # What somebody writes there stays, until the value is another one.
+            nonlocal told
+            now = name.value, self._scene.values.get(name.value)
+            if now != told:
+                told = now
+                value.value = str(list(now[1]) if isinstance(now[1], tuple) else now[1])
+                about.content = meaning(name.value)
 
         @button.on_click
         def _(_):
@@ -131,6 +138,7 @@ class KnobPanel:
         async def _(_):
             tell()
 
+        self._follow = tell
         tell()
 
 
