@@ -125,13 +125,17 @@ def test_a_slider_moves_the_draft_to_where_the_report_says(default, window):
 def test_a_boat_is_trimmed_by_the_bow_and_capsized_with_the_page_alone(default, window):
     one = window(default)
     one.wait_for('let down')
-    for _ in range(3):
+    # 2 % of 4 m each time.
+    for wanted in ('0.08', '0.16', '0.24'):
         one.click('//button[normalize-space()="bow"]')
-    # 6 % of 4 m.
-    end = time.monotonic() + 20.0
-    while one.run(VALUE, FIELD.format('center of mass x (m)')) != '0.24':
-        assert time.monotonic() < end
-        time.sleep(0.1)
+        clicked = began = time.monotonic()
+        while one.run(VALUE, FIELD.format('center of mass x (m)')) != wanted:
+            assert time.monotonic() < began + 30.0
+            time.sleep(0.1)
+            # As a person does, whose click met a page that was just being drawn.
+            if time.monotonic() > clicked + 5.0:
+                one.click('//button[normalize-space()="bow"]')
+                clicked = time.monotonic()
     turn(one, 'center of mass z (m)', 1.5)
     one.wait_for('warning')
     tab(one, 'Warnings')
