@@ -408,6 +408,25 @@ def test_long_work_shows_how_far_it_is_and_ends_with_one_line_on_ctrl_c(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_an_interrupt_where_python_ignores_what_is_raised_ends_a_program_all_the_same():
+    code = """if True:
+        import sys, time
+        from boat_buoyancy.tools.command_line import run
+
+        class Dropped:
+            def __del__(self):
+                raise KeyboardInterrupt
+
+        def work():
+            Dropped()
+            time.sleep(30.0)
+
+        sys.exit(run('it', work))
+    """
+    done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=20)
+    assert (done.returncode, done.stderr) == (130, 'it: interrupted\n')
+
+
 def test_progress_is_silent_at_first_and_then_on_one_line(monkeypatch):
     class Terminal(StringIO):
 

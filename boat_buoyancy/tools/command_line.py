@@ -15,10 +15,13 @@
 """What the command-line programs share: their scene argument, and how they say what is wrong."""
 
 import argparse
+from contextlib import contextmanager
 from importlib import import_module
 import os
 from pathlib import Path
+import signal
 import sys
+from threading import Timer
 import warnings
 
 from ..physics.stepping.simulation import SimulationError
@@ -130,7 +133,7 @@ def run(program, work):
     A reader that closes the pipe early, as ``head`` does, is no error.
     """
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), _interrupts_heard():
             # In one line, without where in the sources.
             warnings.showwarning = lambda message, *_: print(
                 f'{program}: {one_line(message)}', file=sys.stderr)
@@ -148,6 +151,23 @@ def run(program, work):
         print(f'{program}: interrupted', file=sys.stderr)
         return 130
     return 0
+
+
+@contextmanager
+def _interrupts_heard():
+    """Send an interrupt again that came where Python ignores what is raised, as in a callback."""
+    before = sys.unraisablehook
+
+    def heard(ignored):
+        if ignored.exc_type is KeyboardInterrupt:
+            Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+        else:
+            before(ignored)
+    sys.unraisablehook = heard
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
 
 
 def _refuse(program, message):
