@@ -141,6 +141,8 @@ def test_an_error_in_a_file_names_the_file(tmp_path):
     ('/**:\n  ros__parameters:\n    sea.waves: [[1.0, 2.0, 0.0, 0.0]]\n',
      'sea.waves: expected one flat list'),
     ('boat:\n  ros__parameters:\n    rate: 5.0\n', '"boat_buoyancy:", under it "ros__par'),
+    ('/**:\n  ros__parameters:\n    rate: 50.0\nadded_mass: [1.0]\n',
+     'added_mass: expected parameters under "ros__parameters:", got one beside'),
     ('/**:\n  rate: 5.0\n', '/**: expected "ros__parameters:" and nothing else under it'),
     ('/a/boat_buoyancy:\n  ros__parameters: {}\n/b/boat_buoyancy:\n  ros__parameters: {}\n',
      'expected the parameters of one boat, got /a/boat_buoyancy, /b/boat_buoyancy'),

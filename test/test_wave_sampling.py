@@ -23,7 +23,6 @@ from boat_buoyancy.physics.hydrostatics.rest import rest_state
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.plain
 
 BARGE = {'boat.mass': 184500.0, 'boat.center_of_mass': [0.0, 0.0, 0.3],
          'hull.size': [20.0, 6.0, 3.0]}
@@ -95,12 +94,14 @@ def test_a_boat_on_the_probes_that_are_advised_hardly_heaves_in_short_waves():
     assert 'take hull.probes: [11, 4], or damping.probe: 0.0' in sentence
 
 
+@pytest.mark.plain
 def test_a_panel_size_that_is_not_reached_is_told_of():
     sentence, = (sentence for sentence in load_scene(
         {'hull.model': 'panels', 'hull.panel_size': 0.001}).warnings)
     assert sentence.startswith('hull.panel_size is 0.001 m, and the panels have edges of up to 0.')
 
 
+@pytest.mark.plain
 def test_advice_holds_at_any_heading_and_is_no_lucky_number():
     # Six columns in a row are right in this sea from ahead, by chance.
     lucky = {**BARGE, **SHORT, 'hull.probes': [6, 4]}
@@ -115,6 +116,7 @@ def test_advice_holds_at_any_heading_and_is_no_lucky_number():
     assert told({**advised, **SHORT}) == []
 
 
+@pytest.mark.plain
 def test_an_irregular_sea_is_followed_by_what_is_advised():
     given = {**BARGE, 'sea.sea_state': 3}
     sentence, = told(given)
@@ -129,10 +131,12 @@ def test_an_irregular_sea_is_followed_by_what_is_advised():
     {}, {'sea.waves': [0.0, 1.0, 0.0, 0.0]}, {'sea.waves': [0.1, 8.0, 0.0, 0.0]},
     {**SHORT, 'hull.probes': [12, 6]}, {**SHORT, 'hull.model': 'panels', 'damping.probe': 0.0},
     {**SHORT, 'hull.model': 'panels', 'hull.probes': [12, 6], 'hull.panel_size': 0.4}])
+@pytest.mark.plain
 def test_what_is_fine_enough_is_told_nothing(values):
     assert told({**BARGE, **values}) == []
 
 
+@pytest.mark.plain
 def test_each_hull_of_a_twin_is_looked_at_by_its_own_beam():
     twin = {'boat.mass': 2000.0, 'hull.shape': 'twin', 'hull.size': [5.0, 0.6, 1.0],
             'hull.spacing': 4.0, 'hull.probes': [6, 1], 'sea.waves': [0.05, 1.6, 0.0, 0.0]}
@@ -142,7 +146,9 @@ def test_each_hull_of_a_twin_is_looked_at_by_its_own_beam():
     assert re.search(r'take hull.probes: \[6, [23]\]', sentence)
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize('size', [3.0, 0.5])
+@pytest.mark.plain
 def test_panels_too_large_for_the_waves_are_told_of_and_the_size_advised_will_do(size):
     given = {**BARGE, **SHORT, 'hull.model': 'panels', 'hull.panel_size': size,
              'damping.probe': 0.0}
@@ -153,13 +159,16 @@ def test_panels_too_large_for_the_waves_are_told_of_and_the_size_advised_will_do
     assert told({**given, 'hull.panel_size': advised}) == []
 
 
+@pytest.mark.plain
 def test_panels_whose_facets_are_fine_by_themselves_are_told_nothing_whatever_their_size():
     fine = {'hull.size': [0.4, 0.2, 0.2], 'boat.mass': 8.0, 'hull.model': 'panels',
             'sea.waves': [0.01, 2.0, 0.0, 0.0]}
     assert told({**fine, 'hull.panel_size': 10.0}) == []
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize('size', [0.0, 0.01])
+@pytest.mark.plain
 def test_waves_that_no_panels_can_follow_are_told_of(size):
     sentence, = told({**BARGE, 'hull.model': 'panels', 'hull.panel_size': size,
                       'sea.waves': [0.005, 0.5, 0.0, 0.0]})
@@ -167,12 +176,15 @@ def test_waves_that_no_panels_can_follow_are_told_of(size):
     assert 'hull.panel_size:' not in sentence
 
 
+@pytest.mark.plain
 def test_waves_that_no_probes_can_follow_get_no_number_of_probes():
     sentence, = told({**BARGE, 'sea.waves': [0.001, 0.3, 0.0, 0.0]})
     assert 'take longer waves or a smaller hull' in sentence
 
 
+@pytest.mark.plain
 @pytest.mark.parametrize('apart, fine', [(1.7, True), (1.8, False)])
+@pytest.mark.plain
 def test_probes_given_one_by_one_want_a_neighbour_within_half_a_wave(apart, fine):
     # Half of 3.513 m is 1.756 m.
     positions = [c for x in range(4) for y in (0, 1) for c in (x * apart, y * apart, 0.0)]
@@ -182,10 +194,12 @@ def test_probes_given_one_by_one_want_a_neighbour_within_half_a_wave(apart, fine
     assert fine or 'neighbours are up to 1.8 m apart' in sentences[0]
 
 
+@pytest.mark.plain
 def test_a_single_probe_has_no_neighbour():
     assert told({'probes.positions': [0.0, 0.0, 0.0], **SHORT}) == []
 
 
+@pytest.mark.plain
 def test_added_mass_alone_is_warned_of_in_waves_and_nothing_else_is():
     waves = {'sea.waves': [0.1, 4.0, 0.0, 0.0]}
     added = {'added_mass': [200.0, 600.0, 2000.0, 300.0, 1500.0, 800.0]}
@@ -196,6 +210,7 @@ def test_added_mass_alone_is_warned_of_in_waves_and_nothing_else_is():
         assert ('give wave_force: froude_krylov' in warnings) == said
 
 
+@pytest.mark.plain
 def test_waves_that_do_not_reach_down_to_a_hull_need_no_probes():
     # 1.5 s waves of 3.5 m on a barge of 20 m that is 1.5 m deep: e^-kd is 0.07.
     barge = {'hull.size': [20.0, 6.0, 3.0], 'boat.mass': 184500.0, 'hull.probes': [6, 3],
@@ -205,6 +220,7 @@ def test_waves_that_do_not_reach_down_to_a_hull_need_no_probes():
     assert not any('too far apart' in line for line in deep.warnings)
 
 
+@pytest.mark.plain
 def test_waves_that_do_not_reach_a_hull_at_all_are_not_warned_of():
     for rows in ([1e-4, 0.01, 0.0, 0.0], [0.05, 1.0, 0.0, 0.0]):
         scene = load_scene({'hull.size': [20.0, 6.0, 3.0], 'boat.mass': 184500.0,

@@ -91,7 +91,7 @@ def text(source, boat, added, damping, roll_ratio, trust):
     kept = [values / still_load(boat, rest_state(boat))[0].wetness for values in kept]
     return '\n'.join([
         f'# {source}: surge, sway, heave, roll, pitch, yaw; kg, kg m2, N/(m/s), N m/(rad/s);',
-        '# about the centre of mass, body axes. Paste these into the parameter file.',
+        '# about the centre of mass, body axes. Paste these under ros__parameters, indented.',
         f'added_mass: {_listed(kept[0])}',
         f'damping.linear: {_listed(kept[1])}',
         'wave_force: froude_krylov',

@@ -69,6 +69,12 @@ def parse(text):
     ours = [name for name in sections if name.rpartition('/')[2] in ('*', '**', NODE_NAME)]
     if not ours:
         raise ValueError(f'expected {FORM}, got {", ".join(sections) or "an empty file"}')
+    for name, node in sections.items():
+        # What is a mapping may be for another node.
+        if not isinstance(node, yaml.MappingNode):
+            raise ValueError(
+                f'{name}: expected parameters under "ros__parameters:", got one beside '
+                f'"{ours[0]}:" in line {node.start_mark.line + 1}; indent it like the others')
     boats = {'/' + name.lstrip('/') for name in ours if '*' not in name}
     if len(boats) > 1:
         raise ValueError(f'expected the parameters of one boat, got {", ".join(sorted(boats))}')
