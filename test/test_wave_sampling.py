@@ -148,7 +148,6 @@ def test_each_hull_of_a_twin_is_looked_at_by_its_own_beam():
 
 @pytest.mark.plain
 @pytest.mark.parametrize('size', [3.0, 0.5])
-@pytest.mark.plain
 def test_panels_too_large_for_the_waves_are_told_of_and_the_size_advised_will_do(size):
     given = {**BARGE, **SHORT, 'hull.model': 'panels', 'hull.panel_size': size,
              'damping.probe': 0.0}
@@ -168,7 +167,6 @@ def test_panels_whose_facets_are_fine_by_themselves_are_told_nothing_whatever_th
 
 @pytest.mark.plain
 @pytest.mark.parametrize('size', [0.0, 0.01])
-@pytest.mark.plain
 def test_waves_that_no_panels_can_follow_are_told_of(size):
     sentence, = told({**BARGE, 'hull.model': 'panels', 'hull.panel_size': size,
                       'sea.waves': [0.005, 0.5, 0.0, 0.0]})
@@ -184,7 +182,6 @@ def test_waves_that_no_probes_can_follow_get_no_number_of_probes():
 
 @pytest.mark.plain
 @pytest.mark.parametrize('apart, fine', [(1.7, True), (1.8, False)])
-@pytest.mark.plain
 def test_probes_given_one_by_one_want_a_neighbour_within_half_a_wave(apart, fine):
     # Half of 3.513 m is 1.756 m.
     positions = [c for x in range(4) for y in (0, 1) for c in (x * apart, y * apart, 0.0)]
