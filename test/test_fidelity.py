@@ -28,10 +28,10 @@ import pytest
 
 DOC = Path(__file__).parents[1] / 'doc'
 # % of heave's amplitude and of the slope in roll and pitch.  For the box and the barge what was
-# asked for.  For the Wigley hull what an independent program of the same model found against its
-# own run of the method, 7/35/3, and on top what two such runs differ by: a per cent, and ten in
-# roll, whose peak moves with the per cent of GM that panels leave.
-MOST = {'box': (5.0, 5.0, 4.0), 'barge': (12.0, 9.0, 4.0), 'wigley': (8.0, 45.0, 4.0)}
+# asked for.  For the Wigley hull what a prototype of the same model found, 7/35/3, and a tenth of
+# that, for another run of the method and another mesh: written after the measurement, which
+# misses the prototype's roll by 3 %.
+MOST = {'box': (5.0, 5.0, 4.0), 'barge': (12.0, 9.0, 4.0), 'wigley': (7.7, 38.5, 3.3)}
 
 
 def errors(rows, hull, model, probes, parts):
