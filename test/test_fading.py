@@ -186,7 +186,7 @@ def test_given_again_a_little_higher_twice_a_second_it_keeps_phase_and_pace():
 
 def test_a_wave_of_another_depth_or_phase_is_another_wave():
     for other in (Sea(OLD.waves, depth=2.0), Sea(OLD.waves + [0.0, 0.0, 0.0, 0.1])):
-        assert fade(OLD, other, START, DURATION).table.shape == (9, 4)
+        assert fade(OLD, other, START, DURATION).table.shape == (10, 4)
 
 
 def test_waves_go_on_as_they_are_when_only_the_current_across_them_changes():

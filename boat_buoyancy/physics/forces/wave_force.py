@@ -29,7 +29,7 @@ from .buoyancy import point_of_force
 from .probe_laws import wetting
 from ..compiled import compiled, REORDERED
 from ..rotation import to_body
-from ..sea.waves import ALONG_X, ALONG_Y, FREQUENCY, INTRINSIC, KX, KY, PHASE, RISE, START
+from ..sea.waves import ALONG_X, ALONG_Y, BOTTOM, FREQUENCY, INTRINSIC, KX, KY, PHASE, RISE, START
 from ..trigonometry import sine_cosine
 from ..vectors import add, add_scaled, cross, subtract
 
@@ -142,8 +142,7 @@ def wave_decay(immersion, table):
     cosh(k(h-d)) / cosh(kh), its mean from 0 to d SLOPE, ALONG cosh(k(h-d/2)) / cosh(kh) and UP
     sinh(k(h-d)) / sinh(kh); e^-kd and the like in deep water.  ``table`` as of `Water`.
     """
-    k = np.hypot(table[KX], table[KY])
-    bottom = bottom_decay(table)
+    k, bottom = np.hypot(table[KX], table[KY]), table[BOTTOM]
     tiny = np.finfo(float).tiny
     deep = k * np.asarray(immersion, float)[:, None]
     # No probe is below the bottom.
@@ -155,10 +154,3 @@ def wave_decay(immersion, table):
     mean = (bottom * np.expm1(kd) - np.expm1(-kd)) / (mean_over * whole)
     return np.stack([(down + up) / whole, np.where(kd > tiny, mean, 1.0),
                      (half_down + half_up) / whole, (down - up) / least], axis=1)
-
-
-def bottom_decay(table):
-    """Return e^(-2kh) (W,) of each wave of a table, 0 in deep water, from s / tanh(kh)."""
-    along = np.hypot(table[ALONG_X], table[ALONG_Y])
-    tanh = np.minimum(table[INTRINSIC] / np.maximum(along, np.finfo(float).tiny), 1.0)
-    return (1.0 - tanh) / (1.0 + tanh)

@@ -25,7 +25,7 @@ import math
 from .pressure import corner_places, DEPTH, HEAD, wet_part, X, Y, Z
 from ..compiled import compiled, FUSED
 from ..rotation import to_body
-from ..sea.waves import ALONG_X, ALONG_Y, FREQUENCY, INTRINSIC, KX, KY, PHASE, RISE, START
+from ..sea.waves import BOTTOM, FREQUENCY, KX, KY, PHASE, RISE, START
 from ..trigonometry import decay, sine_cosine
 from ..vectors import add, add_scaled, cross, dot, scale, ZERO
 
@@ -60,15 +60,11 @@ def add_heads(waves, number, origin, places, points, t, weight):
         kx, ky, frequency = waves[KX][j], waves[KY][j], waves[FREQUENCY][j]
         k = math.sqrt(kx * kx + ky * ky)
         here = kx * origin[0] + ky * origin[1] - frequency * t + waves[PHASE][j]
-        # q = e^(-2kh), from s / tanh(kh) along the wave's way; 0 in deep water.
-        along = math.sqrt(waves[ALONG_X][j] * waves[ALONG_X][j]
-                          + waves[ALONG_Y][j] * waves[ALONG_Y][j])
-        tanh = min(waves[INTRINSIC][j] / (along + 1e-300), 1.0)
-        q = (1.0 - tanh) / (1.0 + tanh)
+        q = waves[BOTTOM][j]
         least = math.sqrt(q) + 1e-300
         for i in range(points):
             _, cosine = sine_cosine(kx * x[i] + ky * y[i] + here)
-            # D = (E + q / E) / (1 + q), E = e^(kz); no corner is below the bottom.
+            # D = (E + q / E) / (1 + q), E = e^(kz), q = e^(-2kh); no corner is below the bottom.
             down = max(decay(k * min(origin[2] + z[i], 0.0)), least)
             depth[i] += amplitude * cosine
             head[i] += amplitude * cosine * (down + q / down) / (1.0 + q)

@@ -29,13 +29,13 @@ from functools import cached_property
 import numpy as np
 
 from .waves import (
-    ALONG_X, ALONG_Y, FREQUENCY, INTRINSIC, KX, KY, PHASE, RISE, SEA, Sea, START, Water)
+    ALONG_X, ALONG_Y, BOTTOM, FREQUENCY, INTRINSIC, KX, KY, PHASE, RISE, SEA, Sea, START, Water)
 from ..compiled import compiled
 
 # The steepest slope of the ramp times its duration.
 STEEPEST = 15.0 / 8.0
 # What makes two waves the same but for their amplitude.
-WAVE = [KX, KY, FREQUENCY, PHASE, INTRINSIC]
+WAVE = [KX, KY, FREQUENCY, PHASE, INTRINSIC, BOTTOM]
 
 
 @compiled
@@ -69,7 +69,7 @@ class FadingSea(Water):
     """
     A sea that turns into ``new`` from ``start`` s on, over ``duration`` s; made by `fade`.
 
-    ``table`` (9, W) of the waves of both, amplitudes as they start and what they rise by;
+    ``table`` (10, W) of the waves of both, amplitudes as they start and what they rise by;
     ``current_start`` (2,) m/s; ``layered``: it began while another fade was under way.
     """
 

@@ -28,8 +28,9 @@ from ..trigonometry import sine_cosine
 # Rows of a wave table, a column a wave.  Amplitudes are start + weight * rise, weight 0 to 1 as
 # the sea fades (see `fading`); a wave of 1 m moves the water at the speeds given.  The frequency
 # is that at a fixed point and makes the phase; the intrinsic one is that in the water, which a
-# current carries along, and makes the speeds: up as it is, along divided by tanh(k h).
-KX, KY, FREQUENCY, PHASE, START, RISE, ALONG_X, ALONG_Y, INTRINSIC = range(9)
+# current carries along, and makes the speeds: up as it is, along divided by tanh(k h).  The last
+# is e^(-2 k h), 0 in deep water: what the bottom changes of how a wave dies out.
+KX, KY, FREQUENCY, PHASE, START, RISE, ALONG_X, ALONG_Y, INTRINSIC, BOTTOM = range(10)
 # What the step reads of a sea beside its waves.
 SEA = np.dtype([('waves', 'i8'), ('fade_start', 'f8'), ('fade_duration', 'f8'),
                 ('current', 'f8', 2), ('current_rise', 'f8', 2), ('wind', 'f8', 2)])
@@ -86,7 +87,7 @@ class Water:
     """
     What every sea can be asked: its surface and its motion, from its table of waves.
 
-    ``table`` (9, W), see above; ``amplitudes`` (time) and ``current_at`` (time) as they are then.
+    ``table`` (10, W), see above; ``amplitudes`` (time) and ``current_at`` (time) as they are then.
     """
 
     def _angle(self, x, y, time):
@@ -218,12 +219,14 @@ class Sea(Water):
 
     @cached_property
     def table(self) -> np.ndarray:
-        """Return the table of waves (9, W) that the step reads."""
+        """Return the table of waves (10, W) that the step reads."""
         amplitude, _, direction, phase = self.waves.T
         along = self.intrinsic_frequency * self._horizontal_ratio
+        k = np.hypot(*self.wave_vector.T)
+        bottom = np.exp(-2.0 * k * self.depth) if self.depth else np.zeros_like(k)
         table = np.stack([*self.wave_vector.T, self.angular_frequency, phase, amplitude,
                           np.zeros(len(self.waves)), along * np.cos(direction),
-                          along * np.sin(direction), self.intrinsic_frequency])
+                          along * np.sin(direction), self.intrinsic_frequency, bottom])
         table.setflags(write=False)
         return table
 
