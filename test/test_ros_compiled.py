@@ -39,7 +39,7 @@ def step_of(boat):
 @needs_numba
 @pytest.mark.parametrize(('cache', 'said'), [
     ('a_folder', 'compiling the step, once for each integrator on this machine'),
-    ('a_file', 'compiling the step, some seconds at every start')])
+    ('a_file', 'compiling the step, up to half a minute at every start')])
 def test_what_takes_seconds_is_said_before_it_is_done(tmp_path, cache, said):
     (tmp_path / 'a_file').write_text('')
     with BoatProcess(environment={'NUMBA_CACHE_DIR': str(tmp_path / cache)}) as boat:

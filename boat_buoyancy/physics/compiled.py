@@ -219,12 +219,12 @@ def notice(function=None):
         return ''
     folder = cache_folder()
     if folder is None:
-        return ('compiling the step, some seconds at every start: no folder for compiled code '
-                'can be written; set NUMBA_CACHE_DIR to one that can')
+        return ('compiling the step, up to half a minute at every start: no folder for compiled '
+                'code can be written; set NUMBA_CACHE_DIR to one that can')
     name = '*' if function is None else f'*.{function.__qualname__}-*'
     if any(folder.rglob(f'{name}.nbi')):
         return ''
-    return 'compiling the step, once for each integrator on this machine: some seconds'
+    return 'compiling the step, once for each integrator on this machine: up to half a minute'
 
 
 def _warn(what):

@@ -116,10 +116,11 @@ def load_at(boat, hull, sea, waves, position, orientation, t):
     if boat.follows_waves > 0:
         moving, faster = about_boat(boat, moving), about_boat(boat, faster)
         water = add(moving.linear, body_stream)
+        # A nu_w' + B nu_w: the water takes the boat along, as its added mass and its drag have it.
         mass, inertia = added_mass(boat, wetness)
         force = add(force, multiply(mass, faster.linear))
-        torque = add(torque, multiply(inertia, faster.angular))
-        torque = add(torque, times(spin_drag, moving.angular))
+        torque = add(torque, add(multiply(inertia, faster.angular),
+                                 times(spin_drag, moving.angular)))
     wind = to_body(R, (sea.wind[0], sea.wind[1], 0.0))
     return Load(add(force, multiply(drag, water)), torque, with_body(damping, drag, spin_drag),
                 wetness, water, moving.angular, body_stream, wind)
