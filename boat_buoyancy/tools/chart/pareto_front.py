@@ -27,8 +27,8 @@ from .trial import Trial
 from ...physics.scene.scene import load_scene
 
 PART = 'both'
-# The scene of the chart when none is given: the barge of `hull_shapes` in sea state 5, held in surge
-# and sway as in heave: a boat that glides adds up error of place, which is another scene.
+# The scene of the chart when none is given: the barge of `hull_shapes` in sea state 5, held in
+# surge and sway as in heave: a boat that glides adds up error of place, which is another scene.
 DEFAULT_NAME = 'barge in sea state 5'
 DEFAULT_SCENE = {'hull.size': [20.0, 6.0, 3.0], 'hull.bottom': 0.0, 'hull.probes': [2, 2],
                  'boat.mass': 184500.0, 'boat.center_of_mass': [0.0, 0.0, 1.8],

@@ -113,7 +113,8 @@ def name_scenes(axes, points):
         names = ', '.join(name.split('_')[0] if name[0] == 'v' else name
                           for _, _, name in members)
         axes.annotate(names, (x, y), (0.75, height), fontsize=7.5, va='center',
-                      arrowprops={'arrowstyle': '-', 'linewidth': 0.5, 'shrinkB': 2.0})
+                      arrowprops={'arrowstyle': '-', 'linewidth': 0.5, 'shrinkB': 2.0,
+                                  'relpos': (0.0, 0.5)})
 
 
 def draw_loop(axes):
