@@ -58,6 +58,9 @@ class Drawing:
             f'{name}/body/probes', boat.hull.positions, np.zeros((count, 3), np.uint8),
             point_size=0.05 * length, point_shape='circle', point_shading='flat',
             precision='float32')
+        self._thrusters = scene.add_point_cloud(
+            f'{name}/body/thrusters', np.zeros((0, 3)), PUSH, point_size=0.04 * length,
+            point_shape='diamond', point_shading='flat', precision='float32')
         self._lift = self._arrows(scene, f'{name}/upright/lift', LIFT, 0.006)
         self._push = self._arrows(scene, f'{name}/body/push', PUSH, 0.012)
         scene.add_icosphere(f'{name}/body/weight', 0.03 * length, color=WEIGHT_MIDDLE,
@@ -87,7 +90,8 @@ class Drawing:
         self._body.wxyz = (w, x, y, z)
         self._probes.colors = probe_colors(snapshot.wetness)
         self._lift.points = lift_arrows(snapshot, self._length)
-        self._push.points = push_arrows(snapshot, self._length)
+        self._push.points = arrows = push_arrows(snapshot, self._length)
+        self._thrusters.points = arrows[:, 0].astype(np.float32)
         middle = snapshot.center_of_buoyancy
         self._lift_middle.visible = middle is not None
         if middle is not None:

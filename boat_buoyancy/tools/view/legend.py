@@ -24,6 +24,7 @@ def legend():
         ('●', drawing.WEIGHT_MIDDLE, 'centre of mass'),
         ('●', drawing.LIFT_MIDDLE, 'centre of buoyancy'),
         ('↑', drawing.LIFT, 'lift of each probe'),
+        ('◆', drawing.PUSH, 'thruster, or where a wrench pushes'),
         ('➜', drawing.PUSH, 'thrust'),
         ('│', (224, 49, 49), 'ahead (x), green to port (y), blue up (z)')))
     colors = ', '.join(map(_css, WETNESS))
