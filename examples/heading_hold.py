@@ -40,11 +40,11 @@ def steer(odometry):
     thrust.publish(message)
 
 
-rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-node = rclpy.create_node('heading_hold')
-thrust = node.create_publisher(WrenchStamped, 'thrust', 1)
-node.create_subscription(Odometry, 'odom', steer, 1)
 try:
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    node = rclpy.create_node('heading_hold')
+    thrust = node.create_publisher(WrenchStamped, 'thrust', 1)
+    node.create_subscription(Odometry, 'odom', steer, 1)
     while True:
         rclpy.spin_once(node, timeout_sec=0.1)
 except KeyboardInterrupt:
