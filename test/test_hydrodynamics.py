@@ -181,7 +181,7 @@ def test_without_capytaine_one_line_says_what_to_install_and_strips_need_none():
     done = without(['capytaine'], 'boat_buoyancy.tools.hydrodynamics', [BARGE, '--bem'])
     assert done.returncode == 2 and done.stdout == '' and done.stderr.count('\n') == 1
     assert '--bem needs capytaine ' in done.stderr
-    assert done.stderr.endswith('pip install "boat_buoyancy[bem]"\n')
+    assert done.stderr.endswith(': ./install.sh bem, or pip install "boat_buoyancy[bem]"\n')
     done = without(['capytaine'], 'boat_buoyancy.tools.hydrodynamics', [BARGE])
     assert done.returncode == 0 and done.stderr == ''
 

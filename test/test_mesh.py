@@ -284,7 +284,7 @@ def test_without_trimesh_a_mesh_says_what_to_install():
     done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, timeout=60)
     assert done.stderr.splitlines()[-1] == (
         "ValueError: hull.mesh: boat.stl: a mesh needs trimesh (No module named 'trimesh'): "
-        'pip install "boat_buoyancy[mesh]"')
+        './install.sh mesh, or pip install "boat_buoyancy[mesh]"')
 
 
 # The hulls that come with the package.

@@ -38,7 +38,7 @@ def test_what_needs_the_extra_chart_says_so_in_one_line(module, words, needs):
     done = without(BROUGHT, module, words)
     assert done.returncode == 2 and done.stdout == '' and done.stderr.count('\n') == 1
     assert needs in done.stderr
-    assert 'pip install "boat_buoyancy[chart]"' in done.stderr
+    assert ': ./install.sh chart, or pip install "boat_buoyancy[chart]"' in done.stderr
 
 
 @pytest.mark.parametrize('module, words', [
@@ -52,7 +52,7 @@ def test_the_page_says_in_one_line_what_it_needs():
     done = without(('viser',), VIEW, [SCENE, '--port', '0', '--no-open'])
     assert done.returncode == 2 and done.stdout == '' and done.stderr.count('\n') == 1
     assert 'the page needs viser ' in done.stderr
-    assert done.stderr.endswith('pip install "boat_buoyancy[view]"\n')
+    assert done.stderr.endswith(': ./install.sh view, or pip install "boat_buoyancy[view]"\n')
 
 
 def test_the_page_of_running_nodes_says_in_one_line_that_it_needs_ros():
@@ -64,6 +64,6 @@ def test_the_page_of_running_nodes_says_in_one_line_that_it_needs_ros():
 
 def test_only_what_is_missing_is_named():
     with pytest.raises(ValueError, match=r"^--plot needs no_such \(No module named 'no_such'\): "
-                       r'pip install "boat_buoyancy\[view\]", or on Ubuntu apt install '
-                       r'python3-no_such$'):
+                       r'\./install\.sh view, or pip install "boat_buoyancy\[view\]", or on '
+                       r'Ubuntu apt install python3-no_such$'):
         command_line.require_extra('view', '--plot', 'json', 'no_such')

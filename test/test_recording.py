@@ -191,4 +191,4 @@ def test_without_the_extra_one_line_says_what_to_install():
         scene, '--duration', '0.1', '--mcap', 'run.mcap'])
     assert done.returncode == 2 and done.stdout == '' and done.stderr.count('\n') == 1
     assert done.stderr == ('buoyancy_simulate: --mcap needs rosbags (No module named '
-                           '\'rosbags\'): pip install "boat_buoyancy[bag]"\n')
+                           '\'rosbags\'): ./install.sh bag, or pip install "boat_buoyancy[bag]"\n')

@@ -85,7 +85,7 @@ def require_extra(extra, what, *modules):
     """
     Raise ValueError with what to install where a module of an extra cannot be imported.
 
-    ``extra`` as in ``pip install "boat_buoyancy[EXTRA]"``; ``what`` needs it, as '--plot'.
+    ``extra`` as in ``./install.sh EXTRA``; ``what`` needs it, as '--plot'.
     """
     missing = {}
     for module in modules:
@@ -97,7 +97,7 @@ def require_extra(extra, what, *modules):
         packages = [f'python3-{module}' for module in missing if module not in NOT_IN_UBUNTU]
         raise ValueError(
             f'{what} needs {" and ".join(missing)} ({"; ".join(map(str, missing.values()))}): '
-            f'pip install "boat_buoyancy[{extra}]"'
+            f'./install.sh {extra}, or pip install "boat_buoyancy[{extra}]"'
             + (f', or on Ubuntu apt install {" ".join(packages)}' if packages else ''))
 
 

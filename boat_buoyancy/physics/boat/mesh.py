@@ -83,8 +83,8 @@ def _read(path):
     try:
         import trimesh
     except ImportError as error:
-        raise ValueError(f'a mesh needs trimesh ({error}): pip install "boat_buoyancy[mesh]"'
-                         ) from None
+        raise ValueError(f'a mesh needs trimesh ({error}): ./install.sh mesh, or '
+                         'pip install "boat_buoyancy[mesh]"') from None
     try:
         content = path.read_bytes()
     except OSError as error:

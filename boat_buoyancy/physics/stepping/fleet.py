@@ -62,7 +62,8 @@ class Fleet(Stepped):
         # Of a Numba that is there and no good, `compiled` has told.
         if find_spec('numba') is None and not turned_off():
             warn('this fleet is stepped by plain Python, some fifty times slower than compiled: '
-                 'pip install "boat_buoyancy[fast]"', RuntimeWarning, stacklevel=2)
+                 './install.sh fast, or pip install "boat_buoyancy[fast]"', RuntimeWarning,
+                 stacklevel=2)
         count = _processors() if threads is None else checks.count('threads', threads, at_least=1)
         count = 1 if self._engine.is_plain else max(1, min(count, size // LEAST_BOATS))
         edges = np.linspace(0, size, count + 1).astype(int).tolist()
