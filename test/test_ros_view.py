@@ -14,6 +14,7 @@
 
 """What buoyancy_view --ros shows of running nodes is what they publish; what it asks is done."""
 
+import math
 import signal
 import threading
 import time
@@ -24,7 +25,7 @@ from boat_buoyancy.tools.view.remote import Remote
 from geometry_msgs.msg import WrenchStamped
 import pytest
 from ros_probe import BEST_EFFORT, BoatProcess, LATCHED, new_namespace, Probe
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Float64, Float64MultiArray
 
 WAVES = {'sea.waves': [0.2, 4.0, 0.3, 1.0], 'boat.mass': 2100.0}
 
@@ -109,6 +110,44 @@ def test_a_node_is_pushed_paused_stepped_and_reset(seen):
                     lambda: remote.set_pace(0.5)):
         with pytest.raises(ValueError, match='a running node'):
             refused()
+
+
+def test_the_thrust_that_others_ask_for_is_shown_as_long_as_it_acts():
+    thrusters = {'thrusters.names': ['left', 'right'],
+                 'thrusters.positions': [-1.5, 0.8, -0.4, -1.5, -0.8, -0.4],
+                 'thrusters.limits': [-300.0, 300.0] * 2}
+    with BoatProcess(thrusters) as boat, Probe(boat.namespace) as probe:
+        remote = Remote(['-r', f'__ns:={boat.namespace}'])
+        left, turn = (probe.publisher(Float64, f'thrusters/left/{part}')
+                      for part in ('thrust', 'pos'))
+        wrench = probe.publisher(WrenchStamped, 'thrust')
+        asked = WrenchStamped()
+        asked.wrench.force.y = 200.0
+
+        def send():
+            left.publish(Float64(data=500.0))
+            turn.publish(Float64(data=math.pi / 2.0))
+            wrench.publish(asked)
+
+        def shown():
+            return [(place, pytest.approx(force, abs=1e-9)) for place, force in next(
+                iter(remote.snapshots.values())).pushes]
+        places = (-1.5, 0.8, -0.4), (-1.5, -0.8, -0.4)
+        idle = [(place, (0.0, 0.0, 0.0)) for place in places]
+        try:
+            assert remote.wait(20.0)
+            until(lambda: remote.snapshots)
+            assert shown() == idle
+            # The one on the left is turned to port, at its limit; the wrench is at the origin.
+            probe.until(lambda: shown() == [
+                (places[0], (0.0, 300.0, 0.0)), idle[1], ((0.0, 0.0, 0.0), (0.0, 200.0, 0.0))],
+                doing=send)
+            # What the node refuses is not shown, and what it forgets neither.
+            asked.wrench.force.y = math.nan
+            probe.until(lambda: shown() == idle, doing=lambda: wrench.publish(asked))
+            assert remote.fault is None
+        finally:
+            remote.stop()
 
 
 def test_a_node_that_goes_away_and_comes_back_is_shown_as_such():

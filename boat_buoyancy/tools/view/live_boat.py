@@ -21,7 +21,7 @@ import numpy as np
 
 from .history import History
 from .scene_text import scene_text
-from .snapshot import Snapshot
+from .snapshot import pushes_of, Snapshot
 from ...physics.boat.state import body_frame, center_of_mass_state
 from ...physics.hydrostatics.rest import floating_state
 from ...physics.rotation import rotation_matrix, to_roll_pitch_yaw
@@ -205,12 +205,9 @@ class LiveBoat:
         session = self.session
         simulation, boat = session.simulation, session.simulation.boat
         motion = simulation.motion
-        pushes = tuple(
-            (thruster.position, thruster.wrench(session.propulsion.forces[name],
-                                                session.thrusters.angles.get(name, 0.0))[0])
-            for name, thruster in session.propulsion.thrusters.items())
-        if not pushes and session.wrench is not None:
-            pushes = (((0.0, 0.0, 0.0), tuple(session.wrench[:3])),)
+        thrusters = session.propulsion.thrusters.values()
+        pushes = pushes_of(thrusters, session.propulsion.forces, session.thrusters.angles,
+                           None if thrusters else session.wrench)
         return Snapshot(
             boat, simulation.sea, simulation.time, session.stamp / 1e9, self._placed(motion)[0],
             np.array(motion.orientation), np.array(simulation.probe_depths),

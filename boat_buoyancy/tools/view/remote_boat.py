@@ -29,6 +29,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from .history import History
 from .loop import MEASURED, Speed
+from .remote_thrust import RemoteThrust
 from .snapshot import Snapshot
 from ...physics.rotation import to_roll_pitch_yaw
 from ...physics.scene.parameter_values import checked
@@ -66,6 +67,7 @@ class RemoteBoat:
                 (Float64MultiArray, 'waves', self._take_waves, qos.SEA_IN_FORCE)):
             node.create_subscription(kind, f'{prefix}/{topic}', partial(self._try, topic, take),
                                      profile)
+        self._pushed = RemoteThrust(node, prefix, self._now)
         self._thrust = node.create_publisher(WrenchStamped, f'{prefix}/thrust', qos.THRUST)
         self._clients = {name: node.create_client(kind, f'{self.path}/{name}')
                          for name, kind in (('get_parameters', GetParameters),
@@ -79,6 +81,7 @@ class RemoteBoat:
         """Ask a node that came, or came back, for all that is to be known of it."""
         self.trouble = self._wrong = None
         self.begun += 1
+        self._pushed.clear()
         self.look()
 
     def gone(self):
@@ -108,6 +111,7 @@ class RemoteBoat:
         scene = scene_from_values({
             name: value for name, value in values.items() if value is not None}, self.scene)
         self._sea = _sea_of(scene, self._waves)
+        self._pushed.take(scene)
         self.scene = scene
 
     def _take_odometry(self, message):
@@ -125,6 +129,10 @@ class RemoteBoat:
             self.history.add(stamp, (pose.position.x, pose.position.y, pose.position.z),
                              to_roll_pitch_yaw((turn.x, turn.y, turn.z, turn.w)),
                              (velocity.x, velocity.y, velocity.z))
+
+    def _now(self):
+        """Return the stamp in s of what came last."""
+        return 0.0 if self._odometry is None else _seconds(self._odometry)
 
     def _take_probes(self, message):
         self._probes = np.frombuffer(bytes(message.data), np.float32).reshape(
@@ -149,9 +157,10 @@ class RemoteBoat:
             return None
         pose, stamp = message.pose.pose, _seconds(message)
         place, turn = pose.position, pose.orientation
+        orientation = (turn.x, turn.y, turn.z, turn.w)
         return Snapshot(
             scene.boat, self._sea, stamp, stamp, np.array([place.x, place.y, place.z]),
-            np.array([turn.x, turn.y, turn.z, turn.w]), probes[:, 3], probes[:, 4])
+            np.array(orientation), probes[:, 3], probes[:, 4], self._pushed.pushes(orientation))
 
     # What it is asked.
 
@@ -185,6 +194,8 @@ class RemoteBoat:
         answer = self._answer(name, Trigger.Request())
         if not answer.success:
             raise ValueError(answer.message)
+        if name == 'reset':
+            self._pushed.clear()
 
     def pause(self, paused):
         """Stop or go on."""

@@ -76,3 +76,18 @@ class Snapshot:
         law = LAWS.index(hull.law)
         return [wetting(law, height, depth, upright)
                 for height, depth in zip(hull.height.tolist(), self.depths.tolist())]
+
+
+def pushes_of(thrusters, forces, angles, wrench):
+    """
+    Return the ``pushes`` of a `Snapshot`.
+
+    ``thrusters``, each a `Thruster`; ``forces`` {name: N}; ``angles`` {name: rad}, 0 where left
+    out; ``wrench`` (6) N and N m at the body origin, body axes, or None.
+    """
+    pushes = [(thruster.position,
+               thruster.wrench(forces[thruster.name], angles.get(thruster.name, 0.0))[0])
+              for thruster in thrusters]
+    if wrench is not None:
+        pushes.append(((0.0, 0.0, 0.0), tuple(wrench[:3])))
+    return tuple(pushes)
