@@ -41,7 +41,7 @@ SCENE = """/**:
     fix.longitude: 10.0
 """
 ROS = ('rclpy', 'builtin_interfaces', 'geometry_msgs', 'nav_msgs', 'sensor_msgs', 'std_msgs',
-       'tf2_msgs')
+       'tf2_msgs', 'visualization_msgs')
 THRUST = ['--thrust', '300', '-20', '0', '0', '10', '100']
 
 
@@ -133,6 +133,36 @@ def test_sensors_measure_at_their_rates_where_the_boat_is(recorded):
         assert (read.ros_msg.longitude - 10.0) * 65_580 == pytest.approx(row['x'], abs=1e-4)
 
 
+def test_the_sea_is_there_once_for_all_who_listen(recorded):
+    _, path, _ = recorded
+    waves, = messages(path, '/waves')
+    assert waves.log_time_ns == 0 and list(waves.ros_msg.data) == [0.3, 4.0, 0.6, 0.0]
+    assert [(part.size, part.stride) for part in waves.ros_msg.layout.dim] == [(1, 4), (4, 4)]
+    assert 'durability: transient_local' in waves.channel.metadata['offered_qos_profiles']
+
+
+def test_markers_draw_the_boat_on_its_water_ten_times_a_second(recorded):
+    table, path, _ = recorded
+    read = messages(path, '/markers')
+    assert [one.log_time_ns for one in read] == [100_000_000 * i for i in range(21)]
+    frequency = 2.0 * math.pi / 4.0
+    k = frequency ** 2 / 9.81
+    for one, row in zip(read, table[::5]):
+        hull, probes, forces, water = one.ros_msg.markers
+        assert {marker.header.frame_id for marker in one.ros_msg.markers} == {'odom'}
+        assert numbers(hull.pose.position, 'xyz') == pytest.approx([row[i] for i in 'xyz'])
+        assert len(hull.points) == 3 * 12 and len(forces.points) == 2 * len(probes.points)
+        x, y, z = np.array([numbers(point, 'xyz') for point in water.points]).T
+        assert np.ptp(x) > 10.0 and np.ptp(y) > 10.0
+        np.testing.assert_allclose(z, 0.3 * np.cos(
+            k * (x * math.cos(0.6) + y * math.sin(0.6)) - frequency * row['time']), atol=1e-9)
+        # Each probe is as deep under that water as the table says.
+        for i, point in enumerate(probes.points):
+            above = k * (point.x * math.cos(0.6) + point.y * math.sin(0.6))
+            surface = 0.3 * math.cos(above - frequency * row['time'])
+            assert surface - point.z == pytest.approx(row[f'depth_{i}'], abs=1e-9)
+
+
 def test_it_is_what_ros2_bag_and_foxglove_take(recorded):
     _, path, _ = recorded
     with path.open('rb') as file:
@@ -149,7 +179,8 @@ def test_it_is_what_ros2_bag_and_foxglove_take(recorded):
         '/pose': 'geometry_msgs/msg/PoseStamped', '/twist': 'geometry_msgs/msg/TwistStamped',
         '/odom': 'nav_msgs/msg/Odometry', '/probe_depth': 'std_msgs/msg/Float64MultiArray',
         '/probes': 'sensor_msgs/msg/PointCloud2', '/imu': 'sensor_msgs/msg/Imu',
-        '/fix': 'sensor_msgs/msg/NavSatFix', '/tf': 'tf2_msgs/msg/TFMessage',
+        '/fix': 'sensor_msgs/msg/NavSatFix', '/waves': 'std_msgs/msg/Float64MultiArray',
+        '/markers': 'visualization_msgs/msg/MarkerArray', '/tf': 'tf2_msgs/msg/TFMessage',
         '/tf_static': 'tf2_msgs/msg/TFMessage'}
 
 

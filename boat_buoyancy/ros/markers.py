@@ -19,15 +19,12 @@ All in the world frame, so that no transform is needed to see them.  However man
 are, they are one marker, and their forces another: RViz and DDS choke on thousands of markers.
 """
 
-from geometry_msgs.msg import Point
 import numpy as np
-from std_msgs.msg import ColorRGBA, Header
-from visualization_msgs.msg import Marker, MarkerArray
 
-from . import qos
 from .messages import Frame, set_pose, set_stamp, set_vector
 
-PERIOD = 0.1  # s
+# s, and how much sooner is not too soon.
+PERIOD, SOONER = 0.1, 1e-3
 DRY, WET = np.array([0.95, 0.55, 0.10]), np.array([0.10, 0.30, 0.85])
 # Cells along one side of the patch of water, and its side over the length of the boat.
 CELLS, SPREAD = 16, 3.0
@@ -42,13 +39,12 @@ class Markers:
     """
     The publisher of `markers`.
 
-    Main arguments: ``node``; ``scene``, for the frame and the hull.
+    Main arguments: ``topics`` as `NodeTopics`; ``scene``, for the frame and the hull.
     """
 
-    def __init__(self, node, scene):
+    def __init__(self, topics, scene):
         """Build the message once."""
-        self._publisher = node.create_publisher(MarkerArray, 'markers', qos.OUTPUT)
-        self._next = 0.0
+        self._make, self._next = topics.make, 0.0
         low, high = _corners(scene.boat.hull)
         size, surface = high - low, scene.boat.hull.surface
         self._length = length = float(np.linalg.norm(size[:2])) or 1.0
@@ -56,34 +52,51 @@ class Markers:
         self._cell = grid[1] - grid[0]
         self._grid = np.stack(np.meshgrid(grid, grid, indexing='ij'), axis=-1)
 
-        self._header = header = Header(frame_id=scene.world_frame)
+        self._header = topics.make('std_msgs/msg/Header')
+        self._header.frame_id = scene.world_frame
         # In body axes, placed as a whole; as a box where it has no surface, or too fine a one.
         if surface is None or len(surface.triangles) > MOST_TRIANGLES:
-            self._hull = _marker(header, 'hull', Marker.CUBE, size, HULL)
+            self._hull = self._marker('hull', 'CUBE', size, HULL)
             self._middle = tuple(((low + high) / 2).tolist())
         else:
-            self._hull = _marker(header, 'hull', Marker.TRIANGLE_LIST, np.ones(3), HULL)
-            self._hull.points, self._middle = _points(3 * len(surface.triangles)), (0.0,) * 3
+            self._hull = self._marker('hull', 'TRIANGLE_LIST', np.ones(3), HULL)
+            self._hull.points, self._middle = self._points(3 * len(surface.triangles)), (0.0,) * 3
             _set_points(self._hull.points, surface.facets.reshape(-1, 3))
-        probes = _marker(header, 'probes', Marker.SPHERE_LIST, np.full(3, 0.04 * length))
-        forces = _marker(header, 'forces', Marker.LINE_LIST, (0.02 * length, 0.0, 0.0),
-                         (0.8, 0.1, 0.1, 0.9))
-        water = _marker(header, 'water', Marker.TRIANGLE_LIST, np.ones(3),
-                        (0.15, 0.45, 0.75, 0.5))
+        probes = self._marker('probes', 'SPHERE_LIST', np.full(3, 0.04 * length))
+        forces = self._marker('forces', 'LINE_LIST', (0.02 * length, 0.0, 0.0),
+                              (0.8, 0.1, 0.1, 0.9))
+        water = self._marker('water', 'TRIANGLE_LIST', np.ones(3), (0.15, 0.45, 0.75, 0.5))
         # A point that is the corner of several triangles, or a probe and the end of its line, is
         # one object: it is set once.
         count = len(scene.boat.hull.positions)
-        self._probes, self._tips = _points(count), _points(count)
-        self._colors = probes.colors = [ColorRGBA(a=1.0) for _ in range(count)]
-        self._surface = _points((CELLS + 1) ** 2)
+        self._probes, self._tips = self._points(count), self._points(count)
+        self._colors = probes.colors = [topics.make('std_msgs/msg/ColorRGBA')
+                                        for _ in range(count)]
+        for color in self._colors:
+            color.a = 1.0
+        self._surface = self._points((CELLS + 1) ** 2)
         probes.points = self._probes
         forces.points = [end for line in zip(self._probes, self._tips) for end in line]
         water.points = [self._surface[i] for i in _triangles(CELLS).tolist()]
-        self._message = MarkerArray(markers=[self._hull, probes, forces, water])
+        self._message = topics.make('visualization_msgs/msg/MarkerArray')
+        self._message.markers = [self._hull, probes, forces, water]
+        self._publisher = topics.publisher('markers', self._message)
+
+    def _marker(self, namespace, kind, scale, color=(1.0, 1.0, 1.0, 1.0)):
+        marker = self._make('visualization_msgs/msg/Marker')
+        marker.header, marker.ns = self._header, namespace
+        marker.type, marker.action = getattr(marker, kind), marker.ADD
+        marker.pose.orientation.w = 1.0
+        set_vector(marker.scale, (max(float(s), 1e-3) for s in scale))
+        marker.color.r, marker.color.g, marker.color.b, marker.color.a = color
+        return marker
+
+    def _points(self, count):
+        return [self._make('geometry_msgs/msg/Point') for _ in range(count)]
 
     def look(self, session, now):
         """Show the state of a `Session` when it is time and somebody listens; ``now`` s."""
-        if now < self._next:
+        if now < self._next - SOONER:
             return
         self._next = now + PERIOD
         if self._publisher.get_subscription_count():
@@ -121,18 +134,6 @@ def _corners(hull):
     margin = 0.05 * height
     return (positions.min(axis=0) - margin,
             positions.max(axis=0) + [margin, margin, height])
-
-
-def _marker(header, namespace, kind, scale, color=(1.0, 1.0, 1.0, 1.0)):
-    marker = Marker(header=header, ns=namespace, type=kind, action=Marker.ADD)
-    marker.pose.orientation.w = 1.0
-    marker.scale.x, marker.scale.y, marker.scale.z = (max(float(s), 1e-3) for s in scale)
-    marker.color.r, marker.color.g, marker.color.b, marker.color.a = color
-    return marker
-
-
-def _points(count):
-    return [Point() for _ in range(count)]
 
 
 def _set_points(points, places):

@@ -123,6 +123,26 @@ class ClockOutput:
         self._publisher.publish(self._message)
 
 
+class WavesOutput:
+    """The sea in force, rows of four as they were given, for all who listen and will listen."""
+
+    def __init__(self, topics):
+        """Create the publisher."""
+        self._message = topics.make('std_msgs/msg/Float64MultiArray')
+        self._message.layout.dim = [self._row, self._column] = [
+            topics.make('std_msgs/msg/MultiArrayDimension') for _ in range(2)]
+        self._row.label = 'waves'
+        self._column.label, self._column.size, self._column.stride = (
+            'amplitude, period, direction, phase', 4, 4)
+        self._publisher = topics.publisher('waves', self._message)
+
+    def publish(self, sea):
+        """Send the rows of a `Sea`."""
+        self._row.size, self._row.stride = len(sea.waves), 4 * len(sea.waves)
+        self._message.data = array('d', sea.waves.tobytes())
+        self._publisher.publish(self._message)
+
+
 def set_stamp(stamp, nanoseconds):
     """Write ns into a builtin_interfaces Time."""
     stamp.sec, stamp.nanosec = divmod(nanoseconds, NANOSECONDS)

@@ -34,7 +34,7 @@ from .complaints import Refused, Throttle
 from .ending import told_to_end
 from .initial_pose import read_place
 from .markers import Markers
-from .messages import ClockOutput, Outputs
+from .messages import ClockOutput, Outputs, WavesOutput
 from .parameters import LiveParameters, ParameterNode
 from .reports import Reports
 from .sensors import sensors_of
@@ -42,7 +42,7 @@ from .session import Session
 from .thrust import read_wrench
 from .thrusters import ThrusterInput
 from .topics import NodeTopics
-from .wave_messages import WavesInput, WavesOutput
+from .wave_messages import WavesInput
 from .wind import read_wind
 from ..physics.compiled import notice
 from ..physics.scene.parameters import NODE_NAME
@@ -93,9 +93,9 @@ class BoatNode(ParameterNode):
         self._outputs = Outputs(
             topics, scene, sensors_of(topics, scene),
             transforms.topics_of(topics, scene, self.get_clock().now().nanoseconds))
-        self._markers = Markers(self, scene)
+        self._markers = Markers(topics, scene)
         self._clock_output = ClockOutput(topics) if self._own_clock else None
-        self._waves_output = WavesOutput(self)
+        self._waves_output = WavesOutput(topics)
         self._waves_input = WavesInput(self, self._reports.complaints, self._on_waves)
         guarded = self._reports.complaints.guarded
         command = self._reports.command

@@ -27,8 +27,8 @@ REQUEST = QoSProfile(depth=10)
 WIND = QoSProfile(depth=1)
 # Waves that were latched before the node was there.
 LATCHED_REQUEST = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-# What is published otherwise, by topic: transforms, as tf2 has them.
-PROFILES = {'/tf': QoSProfile(depth=100),
-            '/tf_static': QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)}
 # The sea in force: whoever comes late is told, too.
 SEA_IN_FORCE = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+# What is published otherwise, by topic: that, and transforms, as tf2 has them.
+PROFILES = {'waves': SEA_IN_FORCE, '/tf': QoSProfile(depth=100),
+            '/tf_static': QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)}

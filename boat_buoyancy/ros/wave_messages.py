@@ -19,7 +19,6 @@ A message is read into rows (W, 4), which `Session.set_waves` makes the sea that
 on; the sea in force is then published.
 """
 
-from array import array
 from collections import deque
 import math
 import time
@@ -27,7 +26,7 @@ import time
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.qos import DurabilityPolicy
 from rclpy.serialization import deserialize_message
-from std_msgs.msg import Float64MultiArray, MultiArrayDimension
+from std_msgs.msg import Float64MultiArray
 
 from . import qos
 from .complaints import Refused
@@ -170,21 +169,3 @@ class Duplicates:
         own = self._awaited.setdefault(subscription, deque(maxlen=self.KEPT))
         own.append((now, content))
         return False
-
-
-class WavesOutput:
-    """The sea in force, rows of four as they were given, for all who listen and will listen."""
-
-    def __init__(self, node):
-        """Create the publisher."""
-        self._publisher = node.create_publisher(Float64MultiArray, 'waves', qos.SEA_IN_FORCE)
-
-    def publish(self, sea):
-        """Send the rows of a `Sea`."""
-        message = Float64MultiArray()
-        rows = len(sea.waves)
-        message.layout.dim = [MultiArrayDimension(label='waves', size=rows, stride=4 * rows),
-                              MultiArrayDimension(label='amplitude, period, direction, phase',
-                                                  size=4, stride=4)]
-        message.data = array('d', sea.waves.tobytes())
-        self._publisher.publish(message)

@@ -32,8 +32,9 @@ import numpy as np
 from ..physics import Simulation
 from ..physics.scene.parameters import NODE_NAME
 from ..ros import transforms
-from ..ros.messages import Outputs
-from ..ros.pacing import Grid
+from ..ros.markers import Markers
+from ..ros.messages import Outputs, WavesOutput
+from ..ros.pacing import Grid, NANOSECONDS
 from ..ros.sensors import sensors_of
 
 ENDINGS = ('.mcap',)
@@ -55,14 +56,20 @@ def record(path, scene, simulation, duration, thrust, progress=None):
     with written(path, lambda: moment.stamp) as topics:
         outputs = Outputs(topics, scene, sensors_of(topics, scene),
                           transforms.topics_of(topics, scene, moment.stamp))
+        markers = Markers(topics, scene)
+        WavesOutput(topics).publish(simulation.sea)
+
+        def publish():
+            outputs.publish(moment)
+            markers.look(moment, moment.stamp / NANOSECONDS)
 
         def push(time, state):
-            outputs.publish(moment)
+            publish()
             moment.wrench = thrust(time, state) if callable(thrust) else thrust
             return moment.wrench
 
         run = simulation.run(duration, push, progress=progress)
-        outputs.publish(moment)
+        publish()
     return run
 
 
@@ -127,8 +134,10 @@ class Topics:
             return self.make(what)
         if node == Nodetype.BASE:
             return '' if what[0] == 'string' else np.zeros((), what[0]).item()
-        (_, kind), count = what
-        return np.zeros(count, kind[0]) if node == Nodetype.ARRAY else []
+        (part, kind), count = what
+        if part == Nodetype.NAME or kind[0] == 'string':
+            return []
+        return np.zeros(count if node == Nodetype.ARRAY else 0, kind[0])
 
     def publisher(self, topic, message):
         """Return what writes such messages."""
@@ -148,11 +157,12 @@ class Topics:
 
 
 def quality(topic):
-    """Return how messages of a topic travel when they are played: reliable, /tf_static latched."""
+    """Return how messages of a topic travel when they are played: as the node's, all reliable."""
     from rosbags.interfaces import (Qos, QosDurability, QosHistory, QosLiveliness,
                                     QosReliability, QosTime)
     depth, durability = {
         '/tf': (100, QosDurability.VOLATILE), '/tf_static': (1, QosDurability.TRANSIENT_LOCAL),
+        '/waves': (1, QosDurability.TRANSIENT_LOCAL),
     }.get(topic, (10, QosDurability.VOLATILE))
     unset = QosTime(0, 0)
     return Qos(QosHistory.KEEP_LAST, depth, QosReliability.RELIABLE, durability, unset, unset,
