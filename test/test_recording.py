@@ -163,6 +163,16 @@ def test_markers_draw_the_boat_on_its_water_ten_times_a_second(recorded):
             assert surface - point.z == pytest.approx(row[f'depth_{i}'], abs=1e-9)
 
 
+@pytest.mark.parametrize('rate', [24.0, 125.0, 1000.0])
+def test_markers_keep_their_ten_a_second_at_any_rate(tmp_path, rate):
+    scene = load_scene({'rate': rate})
+    recording.record(tmp_path / 'run.mcap', scene, scene.simulation(), 1.0, [0.0] * 6)
+    times = [one.log_time_ns / 1e9 for one in messages(tmp_path / 'run.mcap', '/markers')]
+    # Each with the first message at or after its tenth of a second.
+    assert times == pytest.approx([math.ceil(rate * i / 10 - 1e-9) / rate for i in range(11)],
+                                  abs=1e-8)
+
+
 def test_it_is_what_ros2_bag_and_foxglove_take(recorded):
     _, path, _ = recorded
     with path.open('rb') as file:

@@ -17,7 +17,8 @@
 from types import SimpleNamespace
 
 from boat_buoyancy.physics import load_scene
-from boat_buoyancy.ros.messages import Outputs
+from boat_buoyancy.ros.markers import Markers
+from boat_buoyancy.ros.messages import Outputs, WavesOutput
 from boat_buoyancy.ros.sensors import sensors_of
 from boat_buoyancy.ros.session import Session
 from boat_buoyancy.ros.topics import NodeTopics
@@ -60,11 +61,17 @@ def test_it_holds_what_the_node_publishes(tmp_path):
     scene, node = load_scene(VALUES), Node()
     session, topics = Session(scene), NodeTopics(node)
     outputs = Outputs(topics, scene, sensors_of(topics, scene))
-    outputs.publish(session)
+    markers = Markers(topics, scene)
+    WavesOutput(topics).publish(session.sea)
+
+    def publish():
+        outputs.publish(session)
+        markers.look(session, session.stamp / 1e9)
+    publish()
     session.thrust.hold(THRUST, False, 0.0)
     for _ in range(PERIODS):
         session.step()
-        outputs.publish(session)
+        publish()
 
     path = tmp_path / 'run.mcap'
     recording.record(path, scene, scene.simulation(), PERIODS / scene.rate, THRUST)
@@ -73,9 +80,11 @@ def test_it_holds_what_the_node_publishes(tmp_path):
         for _, channel, message in make_reader(file).iter_messages():
             found.setdefault(channel.topic, []).append(
                 deserialize_message(message.data, node.kinds[channel.topic]))
-    assert set(found) == {'/pose', '/twist', '/odom', '/probe_depth', '/probes', '/imu', '/fix'}
+    assert set(found) == {'/pose', '/twist', '/odom', '/probe_depth', '/probes', '/imu', '/fix',
+                          '/markers', '/waves'}
     assert {topic: len(sent) for topic, sent in found.items()} == {
         topic: len(sent) for topic, sent in node.sent.items()}
     assert len(found['/pose']) == PERIODS + 1 and len(found['/imu']) == 81
+    assert len(found['/markers']) == 21 and len(found['/waves']) == 1
     for topic, sent in node.sent.items():
         assert found[topic] == sent, topic

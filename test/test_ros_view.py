@@ -14,6 +14,7 @@
 
 """What buoyancy_view --ros shows of running nodes is what they publish; what it asks is done."""
 
+import itertools
 import math
 import signal
 import threading
@@ -115,11 +116,11 @@ def test_a_node_is_pushed_paused_stepped_and_reset(seen):
 def test_the_thrust_that_others_ask_for_is_shown_as_long_as_it_acts():
     thrusters = {'thrusters.names': ['left', 'right'],
                  'thrusters.positions': [-1.5, 0.8, -0.4, -1.5, -0.8, -0.4],
-                 'thrusters.limits': [-300.0, 300.0] * 2}
+                 'thrusters.limits': [-300.0, 300.0, -1e15, 1e15]}
     with BoatProcess(thrusters) as boat, Probe(boat.namespace) as probe:
         remote = Remote(['-r', f'__ns:={boat.namespace}'])
-        left, turn = (probe.publisher(Float64, f'thrusters/left/{part}')
-                      for part in ('thrust', 'pos'))
+        left, turn, right = (probe.publisher(Float64, f'thrusters/{part}')
+                             for part in ('left/thrust', 'left/pos', 'right/thrust'))
         wrench = probe.publisher(WrenchStamped, 'thrust')
         asked = WrenchStamped()
         asked.wrench.force.y = 200.0
@@ -142,7 +143,26 @@ def test_the_thrust_that_others_ask_for_is_shown_as_long_as_it_acts():
             probe.until(lambda: shown() == [
                 (places[0], (0.0, 300.0, 0.0)), idle[1], ((0.0, 0.0, 0.0), (0.0, 200.0, 0.0))],
                 doing=send)
-            # What the node refuses is not shown, and what it forgets neither.
+            # A wrench in world axes keeps its direction; what is refused replaces nothing.
+            remote.reset()
+            until(lambda: shown() == idle)
+            asked.header.frame_id = 'odom'
+            too_large = WrenchStamped()
+            too_large.wrench.force.x = 1e300
+
+            # In turn: only the last that came is kept until it is looked at.
+            in_turn = itertools.cycle([asked, too_large])
+
+            def send_both():
+                wrench.publish(next(in_turn))
+                right.publish(Float64(data=1e300))
+
+            def in_the_world():
+                snapshot = next(iter(remote.snapshots.values()))
+                return [(snapshot.turn @ force).tolist() for _, force in snapshot.pushes]
+            probe.until(lambda: in_the_world() == [
+                [0.0] * 3, [0.0] * 3, pytest.approx([0.0, 200.0, 0.0], abs=1e-6)], doing=send_both)
+            # Nor is what the node forgets.
             asked.wrench.force.y = math.nan
             probe.until(lambda: shown() == idle, doing=lambda: wrench.publish(asked))
             assert remote.fault is None

@@ -19,12 +19,13 @@ All in the world frame, so that no transform is needed to see them.  However man
 are, they are one marker, and their forces another: RViz and DDS choke on thousands of markers.
 """
 
+import math
+
 import numpy as np
 
 from .messages import Frame, set_pose, set_stamp, set_vector
 
-# s, and how much sooner is not too soon.
-PERIOD, SOONER = 0.1, 1e-3
+PERIOD = 0.1  # s
 DRY, WET = np.array([0.95, 0.55, 0.10]), np.array([0.10, 0.30, 0.85])
 # Cells along one side of the patch of water, and its side over the length of the boat.
 CELLS, SPREAD = 16, 3.0
@@ -44,7 +45,7 @@ class Markers:
 
     def __init__(self, topics, scene):
         """Build the message once."""
-        self._make, self._next = topics.make, 0.0
+        self._make, self._last = topics.make, None
         low, high = _corners(scene.boat.hull)
         size, surface = high - low, scene.boat.hull.surface
         self._length = length = float(np.linalg.norm(size[:2])) or 1.0
@@ -95,10 +96,12 @@ class Markers:
         return [self._make('geometry_msgs/msg/Point') for _ in range(count)]
 
     def look(self, session, now):
-        """Show the state of a `Session` when it is time and somebody listens; ``now`` s."""
-        if now < self._next - SOONER:
+        """Show the state of a `Session` once a period, if somebody listens; ``now`` s."""
+        # A microsecond for what is lost when ten times 0.1 is not 1.
+        period = math.floor((now + 1e-6) / PERIOD)
+        if period == self._last:
             return
-        self._next = now + PERIOD
+        self._last = period
         if self._publisher.get_subscription_count():
             self._fill(Frame(session))
             self._publisher.publish(self._message)

@@ -39,12 +39,24 @@ def read_wrench(message, scene):
     return values, message.header.frame_id == scene.world_frame
 
 
+def read_thrust(topic, message, thruster, scene):
+    """Return the thrust in N of a Float64 for a `Thruster` of a ``scene``, or raise `Refused`."""
+    thrust = message.data
+    check_finite(topic, [thrust])
+    limit = MAX_THRUST * scene.boat.weight
+    if abs(thruster.limited(thrust)) > limit:
+        raise Refused('too large', f'{topic}: expected at most {limit:.3g} N, '
+                      f'{MAX_THRUST:g} times the weight of this boat, got {thrust:g}')
+    return thrust
+
+
 class ThrustLatch:
     """
     The last good wrench, until it is too old.
 
     ``timeout`` s counts from reception, whatever the header says, on the clock that the boat lives
-    by: half a second of slow motion is longer than that.  0 = hold.
+    by: half a second of slow motion is longer than that.  0 = hold.  One thread may ask while
+    another one holds or clears.
     """
 
     def __init__(self, timeout):
@@ -54,19 +66,21 @@ class ThrustLatch:
 
     def clear(self):
         """Forget the wrench."""
-        self._wrench, self._in_world, self._received = None, False, None
+        self._held = None
 
     def hold(self, wrench, in_world, now):
         """Hold six numbers, in world axes or body axes, received at ``now`` s."""
-        self._wrench, self._in_world, self._received = wrench, in_world, now
+        self._held = wrench, in_world, now
 
     def age(self, now):
         """Return the s since the last good wrench, None without one."""
-        return None if self._received is None else now - self._received
+        held = self._held
+        return None if held is None else now - held[2]
 
     def expired(self, now):
         """Return True when there is a wrench, and it is too old to act."""
-        return self._wrench is not None and 0.0 < self.timeout < now - self._received
+        age = self.age(now)
+        return age is not None and 0.0 < self.timeout < age
 
     def wrench(self, now, orientation):
         """
@@ -75,12 +89,14 @@ class ThrustLatch:
         ``orientation`` () -> the boat's quaternion, asked for only when it is needed: a wrench
         in world axes keeps its direction while the boat turns under it.
         """
-        if self._wrench is None or self.expired(now):
+        held = self._held
+        if held is None or self.expired(now):
             return None
-        if not self._in_world:
-            return self._wrench
+        wrench, in_world, _ = held
+        if not in_world:
+            return wrench
         rotation = rotation_matrix(orientation())
-        return (*to_body(rotation, self._wrench[:3]), *to_body(rotation, self._wrench[3:]))
+        return (*to_body(rotation, wrench[:3]), *to_body(rotation, wrench[3:]))
 
 
 class ThrusterLatches:

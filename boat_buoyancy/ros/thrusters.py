@@ -17,8 +17,8 @@
 from std_msgs.msg import Float64
 
 from . import qos
-from .complaints import check_finite, Refused
-from .thrust import MAX_THRUST
+from .complaints import check_finite
+from .thrust import read_thrust
 
 
 class ThrusterInput:
@@ -38,12 +38,8 @@ class ThrusterInput:
             node.create_subscription(Float64, topic, command(topic, act), qos.THRUST)
 
     def _on_thrust(self, message):
-        thrust, topic = message.data, f'{self._topic}/thrust'
-        check_finite(topic, [thrust])
-        limit = MAX_THRUST * self._session.scene.boat.weight
-        if abs(self._thruster.limited(thrust)) > limit:
-            raise Refused('too large', f'{topic}: expected at most {limit:.3g} N, '
-                          f'{MAX_THRUST:g} times the weight of this boat, got {thrust:g}')
+        thrust = read_thrust(f'{self._topic}/thrust', message, self._thruster,
+                             self._session.scene)
         self._session.thrusters.hold(self._thruster.name, thrust, self._session.age)
 
     def _on_angle(self, message):

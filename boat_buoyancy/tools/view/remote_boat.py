@@ -59,7 +59,7 @@ class RemoteBoat:
         self.scene = self.trouble = self._wrong = self._odometry = self._waves = self._sea = None
         self.history, self.paused, self.begun = History(), False, 0
         self._probes = np.zeros((0, len(CLOUD_FIELDS)))
-        self._since, self._speed = None, Speed()
+        self._since, self._speed, self._age = None, Speed(), 0.0
         prefix = namespace.rstrip('/')
         for kind, topic, take, profile in (
                 (Odometry, 'odom', self._take_odometry, qos.OUTPUT),
@@ -67,7 +67,7 @@ class RemoteBoat:
                 (Float64MultiArray, 'waves', self._take_waves, qos.SEA_IN_FORCE)):
             node.create_subscription(kind, f'{prefix}/{topic}', partial(self._try, topic, take),
                                      profile)
-        self._pushed = RemoteThrust(node, prefix, self._now)
+        self._pushed = RemoteThrust(node, prefix, lambda: self._age)
         self._thrust = node.create_publisher(WrenchStamped, f'{prefix}/thrust', qos.THRUST)
         self._clients = {name: node.create_client(kind, f'{self.path}/{name}')
                          for name, kind in (('get_parameters', GetParameters),
@@ -115,8 +115,10 @@ class RemoteBoat:
         self.scene = scene
 
     def _take_odometry(self, message):
-        self._odometry = message
+        before, self._odometry = self._odometry, message
         stamp, now = _seconds(message), time.monotonic()
+        # The time that the boat has lived, whatever becomes of its stamps.
+        self._age += max(0.0, stamp - _seconds(before)) if before else 0.0
         pose = message.pose.pose
         velocity = message.twist.twist.linear
         if self._since is None or stamp < self._since[1]:
@@ -129,10 +131,6 @@ class RemoteBoat:
             self.history.add(stamp, (pose.position.x, pose.position.y, pose.position.z),
                              to_roll_pitch_yaw((turn.x, turn.y, turn.z, turn.w)),
                              (velocity.x, velocity.y, velocity.z))
-
-    def _now(self):
-        """Return the stamp in s of what came last."""
-        return 0.0 if self._odometry is None else _seconds(self._odometry)
 
     def _take_probes(self, message):
         self._probes = np.frombuffer(bytes(message.data), np.float32).reshape(

@@ -21,8 +21,8 @@ from std_msgs.msg import Float64
 
 from .snapshot import pushes_of
 from ...ros import qos
-from ...ros.complaints import check_finite, Refused
-from ...ros.thrust import read_wrench, ThrusterLatches, ThrustLatch
+from ...ros.complaints import check_finite
+from ...ros.thrust import read_thrust, read_wrench, ThrusterLatches, ThrustLatch
 
 
 class RemoteThrust:
@@ -44,8 +44,8 @@ class RemoteThrust:
         def heed(message):
             try:
                 take(message)
-            except Refused:
-                pass  # as by the node, which says so
+            except Exception:
+                pass  # the node refuses it, too, and says why
         return self._node.create_subscription(kind, f'{self._prefix}/{topic}', heed, qos.THRUST)
 
     def take(self, scene):
@@ -56,10 +56,10 @@ class RemoteThrust:
             for subscription in self._subscriptions:
                 self._node.destroy_subscription(subscription)
             self._thrusters = ThrusterLatches(
-                [thruster.name for thruster in scene.thrusters], scene.thrust_timeout)
+                [thruster.name for thruster in scene.thrusters], 0.0)
             self._subscriptions = [
                 self._listen(Float64, f'thrusters/{thruster.name}/{part}',
-                             partial(take, thruster.name))
+                             partial(take, thruster))
                 for thruster in scene.thrusters
                 for part, take in (('thrust', self._take_thrust), ('pos', self._take_angle))]
         self._thrusters.set_timeout(scene.thrust_timeout)
@@ -68,13 +68,13 @@ class RemoteThrust:
         if self._scene is not None:
             self._wrench.hold(*read_wrench(message, self._scene), self._clock())
 
-    def _take_thrust(self, name, message):
-        check_finite(name, [message.data])
-        self._thrusters.hold(name, message.data, self._clock())
+    def _take_thrust(self, thruster, message):
+        thrust = read_thrust(thruster.name, message, thruster, self._scene)
+        self._thrusters.hold(thruster.name, thrust, self._clock())
 
-    def _take_angle(self, name, message):
-        check_finite(name, [message.data])
-        self._thrusters.angles[name] = message.data
+    def _take_angle(self, thruster, message):
+        check_finite(thruster.name, [message.data])
+        self._thrusters.angles[thruster.name] = message.data
 
     def clear(self):
         """Forget all commands, as a reset does."""

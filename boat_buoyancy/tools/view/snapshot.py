@@ -88,6 +88,6 @@ def pushes_of(thrusters, forces, angles, wrench):
     pushes = [(thruster.position,
                thruster.wrench(forces[thruster.name], angles.get(thruster.name, 0.0))[0])
               for thruster in thrusters]
-    if wrench is not None:
+    if wrench is not None and any(wrench):
         pushes.append(((0.0, 0.0, 0.0), tuple(wrench[:3])))
     return tuple(pushes)
