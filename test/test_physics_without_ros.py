@@ -48,7 +48,8 @@ for name in found:
 
 
 # What `buoyancy_view --ros` imports, and nothing else does.
-OF_ROS = ('boat_buoyancy.tools.view.remote', 'boat_buoyancy.tools.view.remote_boat')
+OF_ROS = tuple(f'boat_buoyancy.tools.view.{name}'
+               for name in ('remote', 'remote_boat', 'remote_thrust'))
 # The page itself, where the extra that draws it is not there.
 PAGE = () if find_spec('viser') else (
     'boat_buoyancy.tools.view.page', 'boat_buoyancy.tools.view.stage')
