@@ -92,6 +92,14 @@ def turn(one, label, value):
     one.write(FIELD.format(label), f'{value}\ue007')
 
 
+def set_value(one, text):
+    """Write a value on the tab of all parameters, and have it set."""
+    one.write(FIELD.format('value'), text)
+    # A page sends what is typed now and then, and a person's hand goes to the mouse meanwhile.
+    time.sleep(1.0)
+    one.click('//button[normalize-space()="Set"]')
+
+
 def draft_of(values):
     return f'draft {figures(load_scene(values))["draft_m"]:.3g} m'
 
@@ -146,11 +154,9 @@ def test_an_illegal_value_is_refused_with_the_sentence_of_the_node(default, wind
     one.wait_for('parameter')
     with pytest.raises(ValueError) as refusal:
         load_scene({'boat.mass': -5})
-    one.write(FIELD.format('value'), '-5')
-    one.click('//button[normalize-space()="Set"]')
+    set_value(one, '-5')
     one.wait_for(str(refusal.value))
-    one.write(FIELD.format('value'), '2500')
-    one.click('//button[normalize-space()="Set"]')
+    set_value(one, '2500')
     text = one.wait_for(draft_of({'boat.mass': 2500.0}))
     assert str(refusal.value) not in text
     # The field follows what another knob, or another page, sets.
