@@ -327,6 +327,9 @@ def test_a_subscriber_that_was_stopped_is_borne_when_it_is_gone(probe, steady, d
     probe.spin(3.0)
     deaf.kill()
     deaf.wait()
+    # What was held up comes first, with the stamp of then.
+    probe.diagnostics.clear()
+    probe.until(lambda: len(probe.diagnostics) > 1)
     with steady:
         probe.spin(1.0)
 
